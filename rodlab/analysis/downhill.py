@@ -1,0 +1,116 @@
+"""Two ways down the energy: steepest descent, as the notes weigh it against Newton [N 2.7], and Newton with a shift.
+
+    steepest      u <- u - t grad V                  reaches minima only, from almost anywhere, and slowly
+    shifted       u <- u - (V'' + mu)^{-1} grad V    the same valleys at Newton's pace; mu -> 0 near the minimum
+
+mu is the Levenberg-Marquardt shift: large it gives short steps down the gradient, zero it gives Newton's own. It is raised
+until V'' + mu is positive definite (index 0, by inertia) and the energy falls as its quadratic model says.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rodlab.analysis.equations import Equations, started
+from rodlab.analysis.newton import Newton, NewtonStep, NoConvergence, Solution
+from rodlab.analysis.point import Point
+from rodlab.numerics.arrays import EPS, Array, number
+from rodlab.numerics.factor import factor, shifted
+
+
+class DescentStep(NamedTuple):
+    """One step down: energy and gradient norm where it began, and its length factor t."""
+
+    energy: float
+    gradient: float
+    t: float
+
+
+def steepest_descent(
+    model: Equations, lam: float, guess: Any = None, *, tol: float = 1e-8, limit: int = 100_000
+) -> tuple[Point, tuple[DescentStep, ...]]:
+    """The minimum that steepest descent with Armijo's rule reaches, and its history, one entry a step.
+
+    Stops when the gradient's norm is below tol times its largest. The model must know its energy (`measures`).
+    Raises `NoConvergence` after `limit` steps: for n joints it needs of the order of n^2.
+
+    >>> from rodlab.mechanics.strut import Strut
+    >>> p, history = steepest_descent(Strut(n=2), 1.0, [0.1, 0.2])
+    >>> p.index, round(p.tip_angle, 6), len(history) > 100
+    (0, 2.028758, True)
+    """
+    lam, u, V = number("lam", lam), started(model, guess), _energy(model)
+    energy, t, history = V(u, lam), 1.0, []
+    largest = 0.0
+    while len(history) < limit:
+        g = np.asarray(model.residual(u, lam))
+        size = float(np.sqrt(g @ g))
+        largest = max(largest, size)
+        if size <= tol * largest:
+            return Point(model, lam, u, (), float(np.sqrt(model.inner(g, g)))), tuple(history)
+        t *= 2
+        while not V(u - t * g, lam) <= energy - t * size * size / 2 + 4 * EPS * abs(energy):
+            t /= 2
+            if t < 1e-300:
+                raise NoConvergence("steepest descent found no way down: is the residual the gradient?", tuple(history))
+        history.append(DescentStep(energy, size, t))
+        u = u - t * g
+        energy = V(u, lam)
+    raise NoConvergence(
+        f"steepest descent has not arrived after {limit} steps: its gradient fell from {largest:.2g} to {size:.2g}", tuple(history)
+    )
+
+
+def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
+    """A minimum of the energy by shifted Newton steps from u, finished by Newton's own method `run`."""
+    V, mu, near = _energy(model), 0.0, 1e-2
+    history: list[NewtonStep] = []
+    energy = V(u, lam)
+    for _ in range(1000):
+        g, H = np.asarray(model.residual(u, lam)), model.jacobian(u, lam)
+        least = math.sqrt(EPS) * float(np.abs(np.diagonal(H) if isinstance(H, np.ndarray) else H.diagonal).max())
+        while True:
+            step, fall = _downward(H, g, mu)
+            noise = 1e3 * EPS * abs(energy)
+            gain = -math.inf if step is None else energy - V(u + step, lam)
+            if step is not None and (gain >= fall / 10 or (fall <= noise and gain >= -noise)):
+                break
+            mu = max(8 * mu, least)
+            if not math.isfinite(mu):
+                raise NoConvergence("no step from this guess lowers the energy", tuple(history))
+        size = run.norm(step)
+        history.append(NewtonStep(size, run.norm(g), least / (least + mu)))
+        u = u + step
+        energy = V(u, lam)
+        if size <= near * run.norm(u) and _downward(model.jacobian(u, lam), g, 0.0)[0] is not None:
+            try:
+                root = run.solve(u)
+            except NoConvergence:
+                near /= 100
+            else:
+                return Solution(root.u, (*history, *root.history), root.remaining)
+        if gain >= fall / 2:
+            mu = mu / 8 if mu > least else 0.0
+    raise NoConvergence("1000 steps down the energy did not arrive at a minimum", tuple(history))
+
+
+def has_energy(model: Equations) -> bool:
+    """True when the model tells the energy of which its residual is the gradient."""
+    return "energy" in getattr(model, "measures", {})
+
+
+def _downward(H: Any, g: Array, mu: float) -> tuple[Array | None, float]:
+    """The step -(H + mu)^{-1} g and the fall of energy it promises, if H + mu is positive definite."""
+    shift = factor(shifted(H, mu))
+    known = shift.inertia()
+    if known is None or known.negative or known.unclear:
+        return None, 0.0
+    step = shift.solve(-g)
+    return (step, float(-g @ step) / 2) if np.isfinite(step).all() else (None, 0.0)
+
+
+def _energy(model: Equations) -> Any:
+    if not has_energy(model):
+        raise ValueError(f"model must know its energy to go downhill; {type(model).__name__} has no measure 'energy'")
+    return model.measures["energy"]  # type: ignore[attr-defined]

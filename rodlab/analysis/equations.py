@@ -1,0 +1,59 @@
+"""Anything with a residual, its Jacobian, its derivative in the load and a length: F(u, lam) = 0.
+
+Four methods suffice. What more a model knows it tells by further members, each read where it is of use:
+
+    measures          name -> function of (u, lam)             a point answers for the model: tip_angle, height, energy
+    second_variation  symmetric matrix at (u, lam)             index and nullity (else the Jacobian, where symmetric)
+    curvature_bound   bound on the change of the Jacobian      index of the exact solution, not of the computed one
+    start             u from a guess, None for the natural one
+    nodes, shape      s, phi and x, z of one shape
+    rounding          bound on v . (computed residual - exact)  the error of a point
+"""
+
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+
+from rodlab.numerics.arrays import Array, vector
+
+
+@runtime_checkable
+class Equations(Protocol):
+    """F(u, lam) = 0 with u of shape (n,).
+
+    `jacobian` returns a numpy array, a scipy sparse matrix, or one of rodlab's structured matrices.
+
+    >>> class Square:
+    ...     def residual(self, u, lam): return u**2 - lam
+    ...     def jacobian(self, u, lam): return np.diag(2 * u)
+    ...     def d_lam(self, u, lam): return -np.ones_like(u)
+    ...     def inner(self, u, v): return u @ v
+    >>> isinstance(Square(), Equations)
+    True
+    """
+
+    def residual(self, u: Array, lam: float, /) -> Array:
+        """F(u, lam), shape of u."""
+        ...
+
+    def jacobian(self, u: Array, lam: float, /) -> Any:
+        """dF/du."""
+        ...
+
+    def d_lam(self, u: Array, lam: float, /) -> Array:
+        """dF/dlam, shape of u."""
+        ...
+
+    def inner(self, u: Array, v: Array, /) -> float:
+        """The scalar product in which steps are measured."""
+        ...
+
+
+def started(equations: Equations, guess: Any) -> Array:
+    """The first iterate: the model's own way of reading a guess, or the array itself."""
+    start = getattr(equations, "start", None)
+    if start is not None:
+        return np.asarray(start(guess))
+    if guess is None:
+        raise ValueError(f"guess must be given: {type(equations).__name__} has no state to start from")
+    return vector("guess", guess).copy()

@@ -1,0 +1,181 @@
+"""Newton's method for F(u) = 0, plain while it contracts and damped where it does not [N 2.7].
+
+    J(u_k) s_k = -F(u_k),    u_{k+1} = u_k + t_k s_k
+
+It is judged by its steps in the norm of the equations, not by the residual, whose scale means nothing (at n = 10^6
+joints rounding of u alone leaves a residual of 1e-10). Damping follows Deuflhard's natural monotonicity test
+[Newton Methods for Nonlinear Problems, 2004, NLEQ-ERR]: a step of length t is taken when the simplified step, with the same
+Jacobian from the new point, is shorter by 1 - t/4. Steps near a regular root shrink quadratically, and the history shows it.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.factor import Factor, factor, solve
+
+SHORTEST = 1e-9  # damping below this finds nothing more
+FLOOR = 1e-7  # relative step below which steps that stop shrinking are rounding, or a singular root
+
+
+class NewtonStep(NamedTuple):
+    """One linear solve: norm of the step, norm of the residual it started from, and the fraction of it taken."""
+
+    step: float
+    residual: float
+    damping: float
+
+
+class NoConvergence(ArithmeticError):
+    """No solution was reached. `history` holds what was tried, a `NewtonStep` (or descent step) each."""
+
+    def __init__(self, message: str, history: tuple[Any, ...]) -> None:
+        super().__init__(message)
+        self.history = history
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A root, the history of its iteration, and an estimate of the distance left to the root, in any one unknown."""
+
+    u: Array
+    history: tuple[NewtonStep, ...]
+    remaining: float
+
+
+@dataclass
+class Newton:
+    """One run of Newton's method: the residual, its Jacobian, the norm, and where it stands.
+
+    >>> run = Newton(lambda u: u**2 - 2, lambda u: np.diag(2 * u), lambda v: float(np.abs(v).max()))
+    >>> root = run.solve(np.array([1.0]))
+    >>> root.u, [f"{entry.step:.0e}" for entry in root.history]
+    (array([1.41421356]), ['5e-01', '8e-02', '2e-03', '2e-06', '2e-12'])
+    """
+
+    residual: Callable[[Array], Array]
+    jacobian: Callable[[Array], Any]
+    norm: Callable[[Array], float]
+    limit: int = 100
+
+    def solve(self, u: Array) -> Solution:
+        """A root from the first iterate u; raises `NoConvergence` with its history."""
+        self.history: list[NewtonStep] = []
+        F = self._residual(u)
+        if F is None:
+            raise NoConvergence("Newton cannot start: the residual at the first guess is not finite", ())
+        start = self.norm(u)
+        before: tuple[Array, Array] | None = None
+        last = contraction = math.inf
+        while len(self.history) < self.limit:
+            step = self._step(u, F)
+            size = self.norm(step) if step is not None else math.inf
+            floor = 2 * EPS * max(self.norm(u), 1e-3 * start)
+            self._tell(size, F)
+            if step is not None and size <= floor:
+                return self._solution(u + step, step, size)
+            if not size < last and before is not None:
+                if last <= FLOOR * self.norm(u):  # rounding: steps can shrink no more
+                    return self._solution(u, u - before[0], last)
+                u, F = self._damped(*before)
+                before, last, contraction = None, math.inf, math.inf
+                continue
+            if step is None:
+                raise self._failure("the Jacobian is singular at the first guess")
+            previous, contraction = contraction, size / last if last < math.inf else math.inf
+            after = self._residual(u + step)
+            if after is None:
+                u, F = self._damped(u, F)
+                before, last, contraction = None, math.inf, math.inf
+                continue
+            left = _remaining(size, contraction, previous)
+            if left <= floor:
+                return self._solution(u + step, step, left)
+            before, last = (u, F), size
+            u, F = u + step, after
+        raise self._failure(f"after {self.limit} linear solves the last step was {self.history[-1].step:.2g}")
+
+    def _damped(self, u: Array, F: Array) -> tuple[Array, Array]:
+        """Steps of the length that natural monotonicity allows, until a full one contracts well."""
+        t = 1.0
+        step_before: Array | None = None
+        simplified: Array | None = None
+        while len(self.history) < self.limit:
+            J = self._factor(u)
+            step = J and _finite(J.solve(-F))
+            if J is None or step is None:
+                raise self._failure("the Jacobian is singular where a damped step would start")
+            size = self.norm(step)
+            if size <= 2 * EPS * self.norm(u):
+                return u, F
+            if step_before is not None and simplified is not None:  # predict from the change of the step
+                change = self.norm(simplified - step)
+                t = min(1.0, t * self.norm(step_before) * self.norm(simplified) / (change * size) if change else 1.0)
+            while True:
+                if t < SHORTEST:
+                    raise self._failure(f"a step of {size:.2g} had to be cut below {SHORTEST:g} of its length")
+                self._tell(size, F, t)
+                trial = self._residual(u + t * step)
+                simplified = None if trial is None else _finite(J.solve(-trial))
+                if trial is not None and simplified is not None:
+                    shorter = self.norm(simplified)
+                    if shorter <= (1 - t / 4) * size:
+                        break
+                    defect = self.norm(simplified - (1 - t) * step)
+                    t = min(0.5 * t * t * size / defect, t / 2)
+                else:
+                    t /= 4
+                if len(self.history) >= self.limit:
+                    raise self._failure(f"{self.limit} linear solves did not suffice for a damped step")
+            u, F, step_before = u + t * step, trial, step
+            if t == 1.0 and shorter < size / 4:
+                return u, F
+        raise self._failure(f"after {self.limit} linear solves the damped step was still {self.history[-1].step:.2g}")
+
+    def _residual(self, u: Array) -> Array | None:
+        with np.errstate(all="ignore"):
+            try:
+                return _finite(self.residual(u))
+            except ValueError:
+                if np.isfinite(u).all():
+                    raise
+                return None
+
+    def _step(self, u: Array, F: Array) -> Array | None:
+        with np.errstate(all="ignore"):
+            return _finite(solve(self.jacobian(u), -F))
+
+    def _factor(self, u: Array) -> Factor | None:
+        with np.errstate(all="ignore"):
+            return factor(self.jacobian(u))
+
+    def _tell(self, size: float, F: Array, damping: float = 1.0) -> None:
+        self.history.append(NewtonStep(size, self.norm(F), damping))
+
+    def _solution(self, u: Array, step: Array, left: float) -> Solution:
+        size = self.norm(step)
+        return Solution(u, tuple(self.history), left * float(np.abs(step).max()) / size if size else 0.0)
+
+    def _failure(self, why: str) -> NoConvergence:
+        first = self.history[0].residual if self.history else math.nan
+        least = min((entry.residual for entry in self.history), default=math.nan)
+        return NoConvergence(
+            f"Newton did not converge: {why} (residual {first:.2g} at first, {least:.2g} at best)", tuple(self.history)
+        )
+
+
+def _finite(v: Array) -> Array | None:
+    return v if np.isfinite(v).all() else None
+
+
+def _remaining(size: float, contraction: float, previous: float) -> float:
+    """What is left after a step: quadratic convergence if the contraction itself shrank so, else linear."""
+    if contraction >= 0.5:
+        return math.inf
+    if contraction <= 4 * previous**2 and contraction < 0.1:
+        return size * max(contraction**2, contraction * EPS) * 4
+    return size * contraction / (1 - contraction)

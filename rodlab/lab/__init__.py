@@ -1,0 +1,1 @@
+"""What a person touches: the only wing that prints, draws and writes."""

@@ -1,0 +1,1 @@
+"""What is bent: the link, the strut, its loads. Knows no solver of equations."""

@@ -1,0 +1,182 @@
+"""From the energy of one link to everything the strut needs, once for every n [N 2.7].
+
+With e(a, b, x, z; lam) the energy of link i (a = phi_{i-1}, b = phi_i, and x, z the place of its upper joint)
+
+    m = -e_a               moment in joint i              gradient_i = m_i - m_{i+1} + f_i + ...
+    f = e_a + e_b          net moment on the link
+    k = -e_ab              coupling of the two angles     Hessian = D^T diag(k) D - diag(c)
+    c = -(e_b + e_a)_b on angle b,  c_below = -(e_a + e_b)_a on angle a
+    e_x, e_z               force on the joint             ... + the moments of all forces above
+    e_xx, e_xz, e_zz       its change with the place
+
+Writing the Hessian by its couplings and rests, as symbols, is what keeps its small eigenvalues accurate: nothing
+large is cancelled in floating point. `python -m rodlab.mechanics.derive` writes `standard.py`.
+"""
+
+import inspect
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy
+from sympy import Expr, Symbol
+from sympy.printing.numpy import NumPyPrinter
+
+from rodlab.mechanics import link as standard_link
+from rodlab.mechanics.link import Link
+from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term
+
+ARGUMENTS = ("a", "b", "x", "z", "lam")
+
+
+@dataclass(frozen=True)
+class LinkDerivation:
+    """The energy of one link and its derivatives, as SymPy expressions; tuples as the kernel returns them."""
+
+    name: str
+    energy: Expr
+    moments: tuple[Expr, Expr]
+    stiffness: tuple[Expr, Expr, Expr]
+    moments_lam: tuple[Expr, Expr]
+    forces: tuple[Expr, Expr]
+    hardening: tuple[Expr, Expr, Expr]
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the parameters that occur, sorted: a term that is absent leaves none."""
+        return tuple(sorted(s.name for s in self.energy.free_symbols if s.name not in ARGUMENTS))
+
+    @property
+    def source(self) -> str:
+        """The kernel: a class of plain numpy functions."""
+        return _class_source(self)
+
+
+def energy_of(terms: Sequence[Term], link: Link) -> Expr:
+    """Sum of the terms' energies of one link."""
+    return sympy.Add(*(_energy(term)(link) for term in terms))
+
+
+def derive(terms: Sequence[Term], *, weighted: bool) -> LinkDerivation:
+    """Differentiate the sum of the terms; about 0.1 s. Raises `ValueError` for a term this strut cannot carry.
+
+    >>> from rodlab.mechanics.terms import BENDING, END_LOAD
+    >>> d = derive((BENDING, END_LOAD), weighted=False)
+    >>> d.moments, d.stiffness
+    ((k*(-a + b), -h*lam*sin(b)), (k, h*lam*cos(b), 0))
+    """
+    link = Link(weighted)
+    a, b, x, z, lam = (getattr(link, name) for name in ARGUMENTS)
+    e = energy_of(terms, link)
+    if any(not tidy(e.diff(place, angle)).is_zero for place in (x, z) for angle in (a, b)):
+        raise ValueError("a term must not multiply the place (x, z) of a link by its angles; write it as a sum")
+    if not tidy(e.diff(lam, 2)).is_zero:
+        raise ValueError("a term must be linear in the load lam")
+    if any(not tidy(e.diff(lam, place)).is_zero for place in (x, z)):
+        raise ValueError("the load lam must act through the angles of a link, not its place")
+    m, f = -e.diff(a), e.diff(a) + e.diff(b)
+    return LinkDerivation(
+        name=kernel_name(terms, weighted=weighted),
+        energy=e,
+        moments=(tidy(m), tidy(f)),
+        stiffness=(tidy(m.diff(b)), tidy(-f.diff(b)), tidy(-f.diff(a))),
+        moments_lam=(tidy(m.diff(lam)), tidy(f.diff(lam))),
+        forces=(tidy(e.diff(x)), tidy(e.diff(z))),
+        hardening=(tidy(e.diff(x, 2)), tidy(e.diff(x, z)), tidy(e.diff(z, 2))),
+    )
+
+
+def kernel_name(terms: Sequence[Term], *, weighted: bool) -> str:
+    """The name of the kernel for these terms, an identifier."""
+    return "_and_".join(term.name for term in terms) + ("_weighted" if weighted else "")
+
+
+def tidy(expression: Expr) -> Expr:
+    """The expression with common factors taken out and sums collected.
+
+    >>> a, b, k = sympy.symbols("a b k"); tidy(k * (2 * a - 2 * b) / 2)
+    k*(a - b)
+    """
+    return sympy.factor_terms(sympy.simplify(expression))
+
+
+def _energy(term: Term) -> Callable[[Link], Expr]:
+    if term.energy is not None:
+        own = term.energy
+
+        def checked(link: Link) -> Expr:
+            e = sympy.sympify(own(link))
+            known = {*ARGUMENTS, "h", "w", "k", "beta", *term.parameters}
+            unknown = sorted({s.name for s in e.free_symbols} - known)
+            if unknown:
+                raise ValueError(f"the term {term.name} uses {', '.join(unknown)} but was given {dict(term.parameters)!r}")
+            return e
+
+        return checked
+    function: Callable[[Link], Expr] = getattr(standard_link, term.name)
+    return function
+
+
+def _class_source(d: LinkDerivation) -> str:
+    places = any(not e.is_zero for e in d.forces)
+    given = "".join(f", {name}: Value" for name in d.parameters)
+    angles = f"a: Array, b: Array, lam: float{given}"
+    joints = f"x: Array, z: Array{given}"
+    energy = f"a: Array, b: Array, x: Array, z: Array, lam: float{given}" if places else angles
+    methods = [
+        _method("energy", energy, (d.energy,)),
+        _method("moments", angles, d.moments),
+        _method("stiffness", angles, d.stiffness),
+        _method("moments_lam", angles, d.moments_lam),
+    ]
+    if places:
+        methods += [_method("forces", joints, d.forces), _method("hardening", joints, d.hardening)]
+    head = (
+        f"class {d.name}:\n"
+        f'    """e = {d.energy}"""\n\n'
+        f"    parameters = {d.parameters!r}\n"
+        f"    places = {places}\n"
+        f"    hardens = {any(not e.is_zero for e in d.hardening)}\n"
+    )
+    return head + "".join(methods)
+
+
+def _method(name: str, arguments: str, results: tuple[Expr, ...]) -> str:
+    shared, reduced = sympy.cse(results, symbols=(Symbol(f"t{i}") for i in range(1000)), order="none")
+    printer = NumPyPrinter({"fully_qualified_modules": False})
+    lines = [f"        {left} = {printer.doprint(right)}" for left, right in shared]
+    values = [printer.doprint(e) if not e.is_number else repr(float(e)) for e in reduced]
+    returns = "Value" if len(values) == 1 else f"tuple[{', '.join(['Value'] * len(values))}]"
+    body = "\n".join([*lines, f"        return {', '.join(values)}"])
+    return f"\n    @staticmethod\n    def {name}({arguments}) -> {returns}:\n{body}\n"
+
+
+HEADER = '''"""Kernels of the standard terms. Generated by `python -m rodlab.mechanics.derive`; a test derives them again."""
+
+# ruff: noqa: N801, ARG004, E501
+
+from typing import Any
+
+from numpy import cos, sin
+
+from rodlab.numerics.arrays import Array
+
+Value = Any  # a float or an array (n,): what numpy makes of the parameters given
+
+'''
+
+
+def standard_source() -> str:
+    """The text of `standard.py`: bending and load, with and without rest angles and weights."""
+    sums = [((bend,), False) for bend in (BENDING, BENDING_WITH_REST)]
+    sums += [((bend, END_LOAD), weighted) for bend in (BENDING, BENDING_WITH_REST) for weighted in (False, True)]
+    derivations = [derive(terms, weighted=weighted) for terms, weighted in sums]
+    table = "".join(f'    "{d.name}": {d.name},\n' for d in derivations)
+    classes = "\n\n".join(d.source for d in derivations)
+    return f"{HEADER}\n{classes}\n\nKERNELS: dict[str, Any] = {{\n{table}}}\n"
+
+
+if __name__ == "__main__":
+    import pathlib
+
+    pathlib.Path(inspect.getfile(Link)).with_name("standard.py").write_text(standard_source())

@@ -1,0 +1,50 @@
+"""The kernel of a sum of terms: shipped for the standard ones, else derived and compiled when first asked for."""
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Any, Protocol
+
+from rodlab.mechanics.standard import KERNELS
+from rodlab.mechanics.terms import Term
+from rodlab.numerics.arrays import Array
+
+
+class Kernel(Protocol):
+    """Plain numpy functions of the links' angles a, b (n,), the load, and the parameters by name.
+
+    `energy`, `moments` (m, f), `stiffness` (k, c, c_below), `moments_lam` (dm/dlam, df/dlam); where `places`,
+    also `forces` (e_x, e_z) and, where `hardens`, `hardening` (e_xx, e_xz, e_zz), of the joints' x, z (n,).
+    """
+
+    parameters: tuple[str, ...]
+    places: bool
+    hardens: bool
+
+    def energy(self, *angles: Any, **parameters: Any) -> Any: ...
+    def moments(self, a: Array, b: Array, lam: float, **parameters: Any) -> Any: ...
+    def stiffness(self, a: Array, b: Array, lam: float, **parameters: Any) -> Any: ...
+    def moments_lam(self, a: Array, b: Array, lam: float, **parameters: Any) -> Any: ...
+    def forces(self, x: Array, z: Array, **parameters: Any) -> Any: ...
+    def hardening(self, x: Array, z: Array, **parameters: Any) -> Any: ...
+
+
+def kernel(terms: Sequence[Term], *, weighted: bool) -> Kernel:
+    """The kernel of a sum of terms; SymPy is imported only when it is not among the shipped ones."""
+    name = "_and_".join(term.name for term in terms)
+    if all(term.energy is None for term in terms):
+        shipped: Kernel | None = KERNELS.get(name + "_weighted" if weighted else name)
+        if shipped is not None:
+            return shipped
+    return _derived(tuple((term.name, tuple(term.parameters), term.energy) for term in terms), weighted)
+
+
+@lru_cache(maxsize=64)
+def _derived(recipe: tuple[tuple[str, tuple[str, ...], Any], ...], weighted: bool) -> Kernel:
+    from rodlab.mechanics.derive import HEADER, derive
+
+    terms = [Term(name, dict.fromkeys(names), energy) for name, names, energy in recipe]
+    derivation = derive(terms, weighted=weighted)
+    namespace: dict[str, Any] = {}
+    exec("from numpy import *\n" + HEADER + derivation.source, namespace)  # noqa: S102  our own generated text
+    compiled: Kernel = namespace[derivation.name]
+    return compiled

@@ -1,0 +1,68 @@
+"""Where the joints are, and what forces on them do to the angles.
+
+    x_i = sum_{j <= i} A_ij sin(phi_j) + x from the clamp's link,   z_i the same with cos
+    A_ij = h own_i (i = j),  h w_j (i > j)       own_i = w_n w_i, own_n = w_n: a link takes w_n of its upper angle
+
+With forces (X_i, Z_i) = (e_x, e_z) on the joints, N = A^T (X, Z) is what the links above carry [N 2.8, discrete force
+balance]: the moment on link i is cos(phi_i) N_x - sin(phi_i) N_z. Cumulative sums make all of it O(n).
+"""
+
+from typing import Any
+
+import numpy as np
+
+from rodlab.mechanics.joints import Joints
+from rodlab.numerics.arrays import Array
+
+
+class Places:
+    """The places of a strut's joints as functions of its angles.
+
+    >>> x, z = Places(Joints(np.ones(2), np.zeros(2), h=0.5)).of(np.array([0.0, np.pi / 2]))
+    >>> x, z.round(15)
+    (array([0. , 0.5]), array([0.5, 0.5]))
+    """
+
+    def __init__(self, joints: Joints) -> None:
+        self.h, self.phi0, self.w = joints.h, joints.phi0, joints.w
+        self.theta = joints.last_weight
+        self.own = self.theta * self.w
+        self.own[-1] = self.w[-1]
+
+    def of(self, phi: Array) -> tuple[Array, Array]:
+        """x, z of the joints 1..n."""
+        return self._sum(np.sin(phi), np.sin(self.phi0)), self._sum(np.cos(phi), np.cos(self.phi0))
+
+    def _sum(self, values: Array, clamp: Any) -> Array:
+        steps = self.own * values
+        if self.theta != 1:
+            steps[0] += (1 - self.theta) * clamp
+            steps[1:] += (1 - self.theta) * self.w[:-1] * values[:-1]
+        return np.asarray(self.h * np.cumsum(steps))
+
+    def carried(self, force: Any) -> Array:
+        """N = A^T force, shape (n,)."""
+        force = np.broadcast_to(force, self.w.shape)
+        above = np.cumsum(force[::-1])[::-1] - force
+        return np.asarray(self.h * (self.own * force + self.w * above))
+
+    def moments(self, phi: Array, X: Any, Z: Any) -> Array:
+        """Moments of the forces on the links."""
+        return np.asarray(np.cos(phi) * self.carried(X) - np.sin(phi) * self.carried(Z))
+
+    def softening(self, phi: Array, X: Any, Z: Any) -> Array:
+        """What dead forces take from the diagonal of the Hessian."""
+        return np.asarray(np.sin(phi) * self.carried(X) + np.cos(phi) * self.carried(Z))
+
+    def hardening(self, phi: Array, xx: Any, xz: Any, zz: Any) -> Array:
+        """J^T diag(e'') J, the full part of the Hessian where forces change with the place, shape (n, n)."""
+        n = phi.size
+        A = self.h * (np.tril(np.broadcast_to(self.w, (n, n)), -1) + np.diag(self.own))
+        Jx, Jz = A * np.cos(phi), -A * np.sin(phi)
+        xx, xz, zz = (np.broadcast_to(e, n)[:, None] for e in (xx, xz, zz))
+        mixed = Jx.T @ (xz * Jz)
+        return np.asarray(Jx.T @ (xx * Jx) + Jz.T @ (zz * Jz) + mixed + mixed.T)
+
+    def size(self, X: Any, Z: Any) -> Array:
+        """Bound on the moments of the forces, shape (n,)."""
+        return self.carried(np.abs(X)) + self.carried(np.abs(Z))

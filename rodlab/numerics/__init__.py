@@ -1,0 +1,1 @@
+"""Linear algebra and quadrature. Knows no rods."""

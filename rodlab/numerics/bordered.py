@@ -1,0 +1,99 @@
+"""Solve with a matrix and a border, also where the matrix itself is singular.
+
+    [ A    B ] [x]   [f]        A (n, n) known by its factor, B and C (n, m), D (m, m)
+    [ C^T  D ] [y] = [g]
+
+At a fold or branch point A is singular and the bordered matrix is not. Plain block elimination then loses
+everything; Govaerts' mixed block elimination (solve the transposed problem for y first, then correct) is stable for
+any A whose perturbed factor is backward stable [Govaerts, SIAM J. Matrix Anal. 12 (1991) 469; Govaerts and Pryce,
+IMA J. Numer. Anal. 13 (1993) 161]. A border of width m is m borders of width one, each around the last.
+"""
+
+from typing import Any, Protocol
+
+import numpy as np
+
+from rodlab.numerics.arrays import EPS, Array
+
+
+class Solves(Protocol):
+    """A factored matrix: solves with it and with its transpose."""
+
+    def solve(self, b: Array, /) -> Array:
+        """x with A x = b."""
+        ...
+
+    def solve_transposed(self, b: Array, /) -> Array:
+        """x with A^T x = b."""
+        ...
+
+
+class _OneBorder:
+    """Mixed block elimination for a border of width one; itself a factored matrix of order n + 1."""
+
+    def __init__(self, inner: Solves, b: Array, c: Array, d: float) -> None:
+        self.inner, self.b, self.c, self.d = inner, b, c, d
+        self.v, self.w = inner.solve(b), inner.solve_transposed(c)
+        self.right = _nonzero(d - c @ self.v)
+        self.left = _nonzero(d - self.w @ b)
+
+    def solve(self, fg: Array, /) -> Array:
+        return self._solve(fg, self.inner.solve, self.b, self.c, self.v, self.w, self.right, self.left)
+
+    def solve_transposed(self, fg: Array, /) -> Array:
+        return self._solve(fg, self.inner.solve_transposed, self.c, self.b, self.w, self.v, self.left, self.right)
+
+    def _solve(self, fg: Array, inner: Any, b: Array, c: Array, v: Array, w: Array, right: float, left: float) -> Array:
+        f, g = fg[:-1], fg[-1]
+        y1 = (g - w @ f) / left
+        x1 = inner(f - b * y1)
+        y2 = (g - self.d * y1 - c @ x1) / right
+        return np.append(x1 - v * y2, y1 + y2)
+
+
+class Bordered:
+    """The bordered matrix [[A, B], [C^T, D]], solved to full accuracy whether or not A is singular.
+
+    `matrix` multiplies (A @ x), `factor` solves with A, its zero pivots perturbed. B, C: shape (n, m); D: (m, m).
+
+    >>> from rodlab.numerics.factor import factor
+    >>> A = np.array([[1.0, -1.0], [-1.0, 1.0]])                        # singular
+    >>> M = Bordered(A, factor(A), B=np.ones((2, 1)), C=np.ones((2, 1)), D=np.zeros((1, 1)))
+    >>> x, y = M.solve(np.array([1.0, 0.0]), np.array([0.0]))
+    >>> np.allclose(x, [0.25, -0.25], atol=1e-15), np.allclose(y, [0.5])
+    (True, True)
+    """
+
+    def __init__(self, matrix: Any, factor: Solves, *, B: Array, C: Array, D: Array) -> None:
+        self.matrix, self.B, self.C, self.D = matrix, B, C, D
+        solver: Solves = factor
+        for j in range(D.shape[0]):
+            solver = _OneBorder(solver, np.append(B[:, j], D[:j, j]), np.append(C[:, j], D[j, :j]), float(D[j, j]))
+        self._solver = solver
+
+    def solve(self, f: Array, g: Array) -> tuple[Array, Array]:
+        """x (n,) and y (m,), refined until the correction stops shrinking.
+
+        Raises `ArithmeticError` when the bordered matrix is itself singular: nothing then is a solution.
+        """
+        n = f.size
+        z, size = np.zeros(n + g.size), np.inf
+        for _ in range(4):
+            x, y = z[:n], z[n:]
+            residual = np.append(f - self.matrix @ x - self.B @ y, g - self.C.T @ x - self.D @ y)
+            step = self._solver.solve(residual)
+            if not np.isfinite(step).all():
+                raise ArithmeticError(f"the bordered matrix of order {n + g.size} is singular to working precision")
+            last, size = size, float(np.abs(step).max(initial=0.0))
+            if size >= last / 2:
+                break
+            z = z + step
+            if size <= EPS * np.abs(z).max(initial=0.0):
+                break
+        if last < np.inf and size > 1e-3 * np.abs(z).max(initial=0.0):
+            raise ArithmeticError(f"the bordered matrix of order {n + g.size} is singular to working precision")
+        return z[:n], z[n:]
+
+
+def _nonzero(pivot: float) -> float:
+    return float(pivot) or EPS

@@ -1,0 +1,117 @@
+"""One door to every matrix: structured, dense or sparse, `factor(A)` solves, solves transposed and knows inertia.
+
+A structured matrix brings its own factor; a numpy array is factored by LAPACK, a scipy sparse one by SuperLU. Zero
+pivots are perturbed by eps times the norm, so that the factor of a singular matrix still serves a bordered solve.
+"""
+
+from typing import Any, Protocol
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from rodlab.numerics.arrays import EPS, TINY, Array, is_finite
+from rodlab.numerics.inertia import Inertia
+
+
+class Factor(Protocol):
+    """A factored matrix A of shape (n, n)."""
+
+    def solve(self, b: Array, /) -> Array:
+        """x with A x = b."""
+        ...
+
+    def solve_transposed(self, b: Array, /) -> Array:
+        """x with A^T x = b."""
+        ...
+
+    def inertia(self) -> Inertia | None:
+        """Signs of the eigenvalues of A; None where A is not symmetric and so has no index."""
+        ...
+
+
+def factor(matrix: Any) -> Factor:
+    """The factor of a structured matrix, a numpy array or a scipy sparse matrix.
+
+    Raises `ValueError` when it is none of these, not square or not finite.
+
+    >>> factor(np.diag([2.0, -1.0])).inertia()
+    Inertia(negative=1, unclear=0, positive=1)
+    """
+    if hasattr(matrix, "factor"):
+        structured: Factor = matrix.factor()
+        return structured
+    if hasattr(matrix, "tocsc"):
+        from rodlab.numerics.sparse import SparseFactor
+
+        return SparseFactor(matrix)
+    return DenseFactor(matrix)
+
+
+def solve(matrix: Any, b: Array) -> Array:
+    """x with A x = b, once: a structured matrix may know a shorter way than its factor."""
+    if hasattr(matrix, "solve"):
+        return np.asarray(matrix.solve(b))
+    return factor(matrix).solve(b)
+
+
+def shifted(matrix: Any, mu: float) -> Any:
+    """A + mu I, of the same kind as A.
+
+    >>> shifted(np.eye(1), 2.0)
+    array([[3.]])
+    """
+    if hasattr(matrix, "shifted"):
+        return matrix.shifted(mu)
+    if hasattr(matrix, "tocsc"):
+        from scipy.sparse import eye_array
+
+        return matrix + mu * eye_array(matrix.shape[0])
+    return matrix + mu * np.eye(matrix.shape[0])
+
+
+class DenseFactor:
+    """P A = L U of a dense matrix (dgetrf), O(n^3)."""
+
+    def __init__(self, matrix: Any) -> None:
+        A = np.asarray(matrix, dtype=np.float64)
+        if A.ndim != 2 or A.shape[0] != A.shape[1]:
+            raise ValueError(f"the matrix must be square; it has shape {A.shape}")
+        if not is_finite(A):
+            raise ValueError("the matrix must be finite; it has a NaN or infinite entry")
+        self.matrix = A
+        with np.errstate(all="ignore"):
+            lu, order = _quiet_lu(A)
+        pivots = np.einsum("ii->i", lu)
+        pivots[pivots == 0] = EPS * np.abs(A).max(initial=0.0) or TINY
+        self._factors = (lu, order)
+
+    def solve(self, b: Array, /) -> Array:
+        """x with A x = b."""
+        return np.asarray(lu_solve(self._factors, b))
+
+    def solve_transposed(self, b: Array, /) -> Array:
+        """x with A^T x = b."""
+        return np.asarray(lu_solve(self._factors, b, trans=1))
+
+    def inertia(self) -> Inertia | None:
+        """Signs of the eigenvalues of A, or None where A is not symmetric."""
+        return dense_inertia(self.matrix)
+
+
+def dense_inertia(A: Array, slack: float = 0.0) -> Inertia | None:
+    """Signs of the eigenvalues of a dense symmetric matrix to within n eps |A|, or None if it is not symmetric."""
+    bound = slack + A.shape[0] * EPS * float(np.abs(A).max(initial=0.0)) * 4
+    if np.abs(A - A.T).max(initial=0.0) > bound:
+        return None
+    w = np.linalg.eigvalsh((A + A.T) / 2)
+    negative, positive = int((w < -bound).sum()), int((w > bound).sum())
+    return Inertia(negative, w.size - negative - positive, positive)
+
+
+def _quiet_lu(A: Array) -> tuple[Array, Any]:
+    import warnings
+
+    with warnings.catch_warnings():  # scipy warns of the exact zero pivot that is replaced here
+        warnings.simplefilter("ignore")
+        lu, order = lu_factor(A, check_finite=False)
+    return lu, order

@@ -1,0 +1,55 @@
+"""The signs of the eigenvalues of a symmetric matrix, as far as rounding lets them be known."""
+
+from abc import ABC, abstractmethod
+from functools import cached_property
+from typing import NamedTuple
+
+from rodlab.numerics.arrays import Array
+
+
+class Inertia(NamedTuple):
+    """How many eigenvalues are certainly negative, of unknown sign, and certainly positive.
+
+    `unclear` counts the eigenvalues that rounding cannot tell from zero. By Loewner's order and
+    Weyl's monotonicity, A - E <= A_exact <= A + E gives
+    index(A + E) <= index(A_exact) <= index(A - E): `negative` and `negative + unclear`.
+
+    >>> Inertia(1, 0, 4).verified
+    True
+    """
+
+    negative: int
+    unclear: int
+    positive: int
+
+    @property
+    def verified(self) -> bool:
+        """True when every sign is certain."""
+        return self.unclear == 0
+
+
+class Symmetric(ABC):
+    """A symmetric matrix that knows the signs of its eigenvalues."""
+
+    @abstractmethod
+    def inertia(self, slack: Array | float = 0.0) -> Inertia:
+        """Signs of the eigenvalues of every symmetric matrix within diag(slack), and rounding, of this one."""
+
+    @cached_property
+    def _inertia(self) -> Inertia:
+        return self.inertia()
+
+    @property
+    def index(self) -> int:
+        """Number of certainly negative eigenvalues (the Morse index where `index_verified`)."""
+        return self._inertia.negative
+
+    @property
+    def nullity(self) -> int:
+        """Number of eigenvalues that rounding cannot tell from zero."""
+        return self._inertia.unclear
+
+    @property
+    def index_verified(self) -> bool:
+        """True when no eigenvalue is too near zero to know its sign."""
+        return self._inertia.verified
