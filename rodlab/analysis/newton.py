@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from rodlab.analysis.equations import Equations
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.factor import Factor, factor, solve
 
@@ -62,6 +63,16 @@ class Newton:
     norm: Callable[[Array], float]
     limit: int = 100
 
+    @classmethod
+    def at(cls, model: Equations, lam: float, limit: int = 100) -> "Newton":
+        """Newton's method for the equations at a load, in their own length."""
+        return cls(
+            lambda u: np.asarray(model.residual(u, lam)),
+            lambda u: model.jacobian(u, lam),
+            lambda v: math.sqrt(model.inner(v, v)),
+            limit,
+        )
+
     def solve(self, u: Array) -> Solution:
         """A root from the first iterate u; raises `NoConvergence` with its history."""
         self.history: list[NewtonStep] = []
@@ -72,6 +83,9 @@ class Newton:
         before: tuple[Array, Array] | None = None
         last = contraction = math.inf
         while len(self.history) < self.limit:
+            if not F.any():  # exactly in equilibrium, be the Jacobian singular or not
+                self._tell(0.0, F)
+                return self._solution(u, F, 0.0)
             step = self._step(u, F)
             size = self.norm(step) if step is not None else math.inf
             floor = 2 * EPS * max(self.norm(u), 1e-3 * start)
@@ -79,8 +93,8 @@ class Newton:
             if step is not None and size <= floor:
                 return self._solution(u + step, step, size)
             if not size < last and before is not None:
-                if last <= FLOOR * self.norm(u):  # rounding: steps can shrink no more
-                    return self._solution(u, u - before[0], last)
+                if last <= FLOOR * max(self.norm(u), start):  # rounding: steps can shrink no more
+                    return self._solution(u, u - before[0], last * max(1.0, contraction / (1 - contraction)))
                 u, F = self._damped(*before)
                 before, last, contraction = None, math.inf, math.inf
                 continue
@@ -176,6 +190,6 @@ def _remaining(size: float, contraction: float, previous: float) -> float:
     """What is left after a step: quadratic convergence if the contraction itself shrank so, else linear."""
     if contraction >= 0.5:
         return math.inf
-    if contraction <= 4 * previous**2 and contraction < 0.1:
-        return size * max(contraction**2, contraction * EPS) * 4
+    if contraction <= 4 * previous**2 and previous < 0.5:
+        return 4 * size * max(contraction**2, 1e-8)  # an inexact solve contracts no faster
     return size * contraction / (1 - contraction)

@@ -172,6 +172,7 @@ def standard_source() -> str:
     sums += [((bend, END_LOAD), weighted) for bend in (BENDING, BENDING_WITH_REST) for weighted in (False, True)]
     derivations = [derive(terms, weighted=weighted) for terms, weighted in sums]
     table = "".join(f'    "{d.name}": {d.name},\n' for d in derivations)
+    table += "".join(f'    "{d.name}_weighted": {d.name},\n' for d in derivations[:2])  # without load no weight occurs
     classes = "\n\n".join(d.source for d in derivations)
     return f"{HEADER}\n{classes}\n\nKERNELS: dict[str, Any] = {{\n{table}}}\n"
 

@@ -162,4 +162,6 @@ KERNELS: dict[str, Any] = {
     "bending_and_end_load_weighted": bending_and_end_load_weighted,
     "bending_with_rest_and_end_load": bending_with_rest_and_end_load,
     "bending_with_rest_and_end_load_weighted": bending_with_rest_and_end_load_weighted,
+    "bending_weighted": bending,
+    "bending_with_rest_weighted": bending_with_rest,
 }

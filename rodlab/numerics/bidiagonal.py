@@ -47,7 +47,7 @@ def right_vector(a: Array, b: Array, sigma: float) -> Array:
     for _ in range(3):
         x = factor.solve(x)
         x /= np.abs(x).max()
-    v = x[0::2]
+    v = x[1::2]  # the chain is u_1, v_1, u_2, v_2, ...
     return np.asarray(v / np.sqrt(v @ v))
 
 

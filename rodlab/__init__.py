@@ -1,0 +1,71 @@
+"""rodlab: a teaching laboratory for elastic rods.
+
+    import rodlab as rl
+    strut = rl.Strut(n=100)
+    rl.buckling(strut, 3).loads
+    p = rl.equilibrium(strut, lam=5.0, guess=lambda s: s)
+    p.tip_angle, p.error, p.index, p.energy
+
+Names are imported when they are first used: `import rodlab` brings in no other package.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rodlab.analysis.downhill import steepest_descent
+    from rodlab.analysis.equations import Equations
+    from rodlab.analysis.equilibrium import equilibrium
+    from rodlab.analysis.newton import Newton, NoConvergence
+    from rodlab.analysis.point import Point, Shape
+    from rodlab.mechanics.buckling import Buckling, buckling, buckling_loads
+    from rodlab.mechanics.convexity import uniqueness
+    from rodlab.mechanics.strut import Strut
+    from rodlab.mechanics.terms import Term, end_torque, foundation, self_weight, term
+    from rodlab.numerics.bordered import Bordered
+    from rodlab.numerics.factor import factor
+    from rodlab.numerics.tridiagonal import Tridiagonal
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "Bordered": "numerics.bordered",
+    "Buckling": "mechanics.buckling",
+    "Equations": "analysis.equations",
+    "Newton": "analysis.newton",
+    "NoConvergence": "analysis.newton",
+    "Point": "analysis.point",
+    "Shape": "analysis.point",
+    "Strut": "mechanics.strut",
+    "Term": "mechanics.terms",
+    "Tridiagonal": "numerics.tridiagonal",
+    "buckling": "mechanics.buckling",
+    "buckling_loads": "mechanics.buckling",
+    "end_torque": "mechanics.terms",
+    "equilibrium": "analysis.equilibrium",
+    "factor": "numerics.factor",
+    "foundation": "mechanics.terms",
+    "self_weight": "mechanics.terms",
+    "steepest_descent": "analysis.downhill",
+    "term": "mechanics.terms",
+    "uniqueness": "mechanics.convexity",
+}
+
+__all__ = [  # noqa: PLE0604  the same names; a test compares
+    "Bordered", "Buckling", "Equations", "Newton", "NoConvergence", "Point", "Shape", "Strut", "Term", "Tridiagonal",
+    "buckling", "buckling_loads", "end_torque", "equilibrium", "factor", "foundation", "self_weight",
+    "steepest_descent", "term", "uniqueness",
+]  # fmt: skip
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'rodlab' has no attribute {name!r}")
+    from importlib import import_module
+
+    value = getattr(import_module(f"rodlab.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *_HOME])

@@ -1,0 +1,126 @@
+"""The command line: one verb a function, each importing its room when it is called.
+
+Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 not converged. Answers go to stdout, all else to stderr.
+"""
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from typing import Any
+
+from rodlab import __version__
+
+WELCOME = f"""rodlab {__version__}: a teaching laboratory for elastic rods
+
+Five commands to try:
+  rodlab tour                                     the strut, its buckling loads and shapes, as n grows
+  rodlab buckling -n 1000                         the first three buckling loads, with error bounds
+  rodlab buckling -n 400 --rule trapezoid --K "(1+s)**2"
+  rodlab buckling -n 401 --rule trapezoid --K "Piecewise((1, s < 1/2), (1000, True))" --json
+  rodlab buckling --help                          every option of a verb
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code."""
+    parser = _parser()
+    chosen = parser.parse_args(arguments)
+    if chosen.verb is None:
+        print(WELCOME, end="")
+        return 0
+    try:
+        return int(chosen.run(chosen))
+    except (ValueError, MemoryError, OverflowError) as error:
+        return _complain(chosen.verb, str(error) or "not enough memory for a strut of this size", 2)
+    except ArithmeticError as error:  # NoConvergence among them
+        return _complain(chosen.verb, str(error), 3)
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 0
+    except KeyboardInterrupt:
+        return _complain(chosen.verb, "interrupted", 130)
+
+
+def tour(chosen: argparse.Namespace) -> int:
+    """rodlab tour"""
+    from pathlib import Path
+
+    from rodlab.lab.store import as_json
+    from rodlab.lab.tour import tour
+
+    answer, text = tour(Path(chosen.out))
+    print(as_json(answer) if chosen.json else text)
+    return 0
+
+
+def buckling(chosen: argparse.Namespace) -> int:
+    """rodlab buckling"""
+    from rodlab.lab.store import as_json, framed
+    from rodlab.lab.table import known_to, small, table
+    from rodlab.mechanics.buckling import buckling_each, mode_numbers
+    from rodlab.mechanics.strut import Strut
+
+    start = time.perf_counter()
+    strut = Strut(n=chosen.n, K=_number_or_text(chosen.K), rule=chosen.rule, breaks=tuple(chosen.breaks))
+    numbers = mode_numbers(strut, chosen.modes)
+    found = []
+    for entry in _progress(buckling_each(strut, numbers), "buckling loads", len(numbers), chosen.n * len(numbers)):
+        found.append(entry)
+    loads, error = zip(*found, strict=True)
+    seconds = time.perf_counter() - start
+    if chosen.json:
+        asked = {"model": chosen.model, "n": chosen.n, "rule": chosen.rule, "K": chosen.K, "breaks": chosen.breaks}
+        answer = framed("buckling", seconds, {**asked, "modes": list(numbers), "loads": loads, "error": error})
+        print(as_json(answer))
+    else:
+        rows = [[j, known_to(load, e), small(e)] for j, load, e in zip(numbers, loads, error, strict=True)]
+        print(table(f"Buckling loads of {strut!r}", ["mode", "load", "error at most"], rows))
+        print(f"in {1e3 * seconds:.1f} ms")
+    return 0
+
+
+def _progress(entries: Any, what: str, total: int, work: int) -> Any:
+    """A progress bar for what may take longer than two seconds."""
+    if work < 1_000_000:
+        return entries
+    from tqdm import tqdm
+
+    return tqdm(entries, desc=what, total=total, delay=2, leave=False)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="rodlab", description="A teaching laboratory for elastic rods.")
+    parser.add_argument("--version", action="version", version=f"rodlab {__version__}")
+    verbs = parser.add_subparsers(dest="verb", metavar="VERB")
+
+    verb = _verb(verbs, tour, "the main job: the strut at several n, tables, pictures and data, in seconds")
+    verb.add_argument("--out", default="rodlab-tour", metavar="DIR", help="folder for pictures and data (default: %(default)s)")
+
+    verb = _verb(verbs, buckling, "buckling loads of a straight strut, with error bounds")
+    verb.add_argument("--model", choices=["strut"], default="strut", help="what buckles (default: %(default)s)")
+    verb.add_argument("-n", type=int, default=1000, help="number of joints (default: %(default)s)")
+    verb.add_argument("--rule", default="end", help="end or trapezoid (default: %(default)s)")
+    verb.add_argument("--K", default="1", help='bending stiffness: a number or an expression in s, "1+s" (default: 1)')
+    verb.add_argument("--breaks", type=float, nargs="+", default=[], metavar="S", help="where K jumps")
+    verb.add_argument("--modes", type=int, default=3, help="how many loads (default: %(default)s)")
+    return parser
+
+
+def _verb(verbs: Any, run: Any, what: str) -> argparse.ArgumentParser:
+    parser: argparse.ArgumentParser = verbs.add_parser(run.__name__, help=what, description=what[0].upper() + what[1:] + ".")
+    parser.add_argument("--json", action="store_true", help="one JSON object on stdout, numbers at full precision")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def _number_or_text(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _complain(verb: str, message: str, code: int) -> int:
+    print(f"rodlab {verb}: {message}", file=sys.stderr)
+    return code

@@ -1,0 +1,101 @@
+"""Pictures that print: black and grey lines, markers that tell series apart, lengths to scale."""
+
+import io
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rodlab.analysis.point import Point
+from rodlab.lab.buckled import Found
+from rodlab.lab.loads import ORDER, Extrapolated, Load
+
+GREYS = ("0.0", "0.35", "0.6")
+MARKS = {"end": "o", "trapezoid": "s"}
+
+
+def figure(width: float, height: float, **grid: Any) -> tuple[Figure, Any]:
+    """A figure in inches with its axes, without any window."""
+    fig = Figure(figsize=(width, height), layout="constrained")
+    return fig, fig.subplots(**grid)
+
+
+def png(fig: Figure) -> bytes:
+    """The picture as PNG, the same bytes for the same figure."""
+    out = io.BytesIO()
+    fig.savefig(out, format="png", dpi=160, metadata={"Software": None})
+    return out.getvalue()
+
+
+def loads_picture(loads: Sequence[Load], limits: Sequence[Extrapolated]) -> Figure:
+    """Error of the buckling loads against n: one line a mode, one panel a rule, with the slope of its order."""
+    fig, panels = figure(8.2, 3.9, ncols=2, sharey=True)
+    for axes, rule in zip(panels, ORDER, strict=True):
+        own = [entry for entry in loads if entry.rule == rule]
+        sizes = sorted({entry.n for entry in own})
+        modes = sorted({entry.mode for entry in own})
+        for mode, grey in zip(modes, GREYS, strict=False):
+            line = [entry for entry in own if entry.mode == mode]
+            errors = [entry.error / entry.limit for entry in line]
+            axes.loglog(sizes, errors, marker=MARKS[rule], color=grey, ms=4, lw=1.2, label=f"mode {mode}")
+            best = next(limit for limit in limits if limit.rule == rule and limit.mode == mode)
+            axes.loglog(sizes[-1], max(best.error / best.limit, 1e-16), marker="*", color=grey, ms=9, ls="none", mec="k", mew=0.4)
+        _slope(axes, sizes, [entry.error / entry.limit for entry in own if entry.mode == modes[0]], ORDER[rule])
+        axes.set_title(f'rule "{rule}": order {ORDER[rule]}', fontsize=10)
+        axes.set_xlabel("number of joints $n$")
+        axes.grid(True, which="major", lw=0.3, color="0.85")
+        axes.text(sizes[-1] / 1.5, 1e-13, "extrapolated\nfrom all $n$", fontsize=8, color="0.25", ha="right", va="center")
+    panels[0].set_ylabel(r"relative error $|\lambda_j(n) - \lambda_j|\,/\,\lambda_j$")
+    panels[0].legend(fontsize=8, frameon=False, loc="center left", bbox_to_anchor=(0.0, 0.42))
+    return fig
+
+
+def shapes_picture(columns: Sequence[tuple[int, Sequence[Found], float]]) -> Figure:
+    """Buckled shapes to scale, one panel a mode; each shape labelled by its load over the mode's buckling load."""
+    fig, panels = figure(8.2, 5.0, ncols=len(columns), sharey=True)
+    for axes, (mode, found, load) in zip(np.atleast_1d(panels), columns, strict=True):
+        axes.plot([0, 0], [0, 1], color="0.6", lw=1.0, ls=(0, (4, 3)))
+        for i, entry in enumerate(found):
+            shape(axes, entry.point, color=str(0.62 * (1 - (i + 1) / len(found))))
+            _label(axes, entry.point, f"{entry.point.lam / load:.3g}")
+        _clamp(axes)
+        axes.annotate("", (0, 1.05), (0, 1.25), arrowprops={"arrowstyle": "-|>", "lw": 1.2, "color": "k"})
+        axes.text(-0.04, 1.15, r"$\lambda$", fontsize=11, ha="right")
+        index = {entry.point.index for entry in found}
+        axes.set_title(f"mode {mode}, index {', '.join(map(str, sorted(index)))}", fontsize=10)
+        axes.set_aspect("equal")
+        axes.set_xlim(-0.2, 0.92)
+        axes.set_ylim(-0.55, 1.3)
+        axes.set_xlabel("$x$")
+        axes.tick_params(labelsize=8)
+    np.atleast_1d(panels)[0].set_ylabel("$z$")
+    return fig
+
+
+def shape(axes: Axes, point: Point, **style: Any) -> None:
+    """The centreline of a point."""
+    axes.plot(point.x, point.z, lw=1.6, solid_capstyle="round", **style)
+
+
+def _label(axes: Axes, point: Point, text: str) -> None:
+    x, z = float(point.x[-1]), float(point.z[-1])
+    axes.plot(x, z, "o", color="k", ms=2.6)
+    out = np.array([np.sin(point.tip_angle), np.cos(point.tip_angle)])
+    axes.annotate(text, (x, z), tuple(10 * out), textcoords="offset points", fontsize=7.5, ha="center", va="center")
+
+
+def _clamp(axes: Axes) -> None:
+    axes.plot([-0.12, 0.12], [0, 0], color="k", lw=1.6)
+    for x in np.linspace(-0.12, 0.09, 6):
+        axes.plot([x, x - 0.03], [0, -0.045], color="k", lw=0.7)
+
+
+def _slope(axes: Axes, sizes: Sequence[int], errors: Sequence[float], order: int) -> None:
+    """A small triangle under the line that shows its slope."""
+    i = len(sizes) // 2
+    a, b = sizes[i], 2 * sizes[i]
+    top = errors[i] / 5
+    axes.plot([a, b, a, a], [top, top / 2**order, top / 2**order, top], color="0.3", lw=0.8)
+    axes.text(a * 0.86, top / 2 ** (order / 2), str(order), fontsize=8, ha="right", va="center")

@@ -1,0 +1,75 @@
+"""Files written whole or not at all, and the frame that every JSON answer has."""
+
+import csv
+import io
+import json
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import rodlab
+
+SCHEMA = 1
+
+
+def write_whole(path: Path, content: bytes | str) -> Path:
+    """Write a file beside its place and move it there: a reader, or a kill, sees the old file or the new one.
+
+    Raises `ValueError` in one sentence when it cannot be written.
+    """
+    data = content.encode() if isinstance(content, str) else content
+    temporary = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(temporary, 0o666 & ~_umask())
+        os.replace(temporary, path)
+    except OSError as error:
+        raise ValueError(f"{path} cannot be written: {error.strerror or error}") from None
+    finally:
+        if temporary and os.path.exists(temporary):
+            os.unlink(temporary)
+    return path
+
+
+def framed(verb: str, seconds: float, content: Mapping[str, Any]) -> dict[str, Any]:
+    """One object with what every verb says: schema, version, verb and run time."""
+    return {"schema": SCHEMA, "rodlab": rodlab.__version__, "verb": verb, "seconds": seconds, **content}
+
+
+def as_json(answer: Mapping[str, Any]) -> str:
+    """JSON text with numbers at full precision; arrays as lists. NaN and infinities, which JSON lacks, become null."""
+    return json.dumps(_plain(answer), indent=1, allow_nan=False)
+
+
+def as_csv(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
+    """Tidy CSV text, numbers at full precision."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows([[_plain(value) for value in row] for row in rows])
+    return out.getvalue()
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    if isinstance(value, float) and not abs(value) < float("inf"):
+        return None
+    return value
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

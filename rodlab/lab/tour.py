@@ -1,0 +1,136 @@
+"""The tour, rodlab's main job: the strut at several n, its buckling loads on their way to the rod's, and its
+equilibria before and after buckling. Tables for the terminal, pictures and data for a folder."""
+
+import time
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from rodlab.lab.buckled import Found, buckled, straight
+from rodlab.lab.loads import RULES, Extrapolated, Load, extrapolate, loads_against_n
+from rodlab.lab.store import as_csv, as_json, framed, write_whole
+from rodlab.lab.table import known_to, small, table
+from rodlab.mechanics.buckling import Buckling, buckling
+from rodlab.mechanics.strut import Strut
+
+SIZES = tuple(8 * 2**i for i in range(10))
+MODES = (1, 2, 3)
+JOINTS = 100
+SHAPES = (1.02, 1.1, 1.3, 1.7, 2.5, 5.0)  # loads over the buckling load
+
+
+def tour(folder: Path) -> tuple[dict[str, Any], str]:
+    """Compute everything, write the folder, and return the answer for JSON and the text for the terminal."""
+    start = time.perf_counter()
+    loads = list(_progress(loads_against_n(SIZES, MODES), "buckling loads", len(RULES) * len(SIZES) * len(MODES)))
+    limits = [extrapolate([e for e in loads if (e.rule, e.mode) == (r, m)]) for r in RULES for m in MODES]
+    strut = Strut(n=JOINTS)
+    known = buckling(strut, len(MODES))
+    states = list(_progress(before_and_after(strut, known), "equilibria", None))
+    columns = [(m, list(shapes(known, m)), float(known.loads[m - 1])) for m in MODES]
+    answer = framed("tour", time.perf_counter() - start, _answer(loads, limits, states))
+    files = _write(folder, answer, loads, limits, states, columns)
+    answer["files"] = [str(path) for path in files]
+    answer["seconds"] = time.perf_counter() - start
+    return answer, _text(answer, loads, limits, states)
+
+
+def before_and_after(strut: Strut, known: Buckling) -> Iterable[Found]:
+    """The straight strut around its first two loads, and every shape that has buckled by then."""
+    first, second = float(known.loads[0]), float(known.loads[1])
+    for load in (0.8 * first, 1.1 * first, 2 * first, 1.1 * second):
+        yield straight(strut, load)
+        for mode in (1, 2):
+            if load > known.loads[mode - 1]:
+                yield from buckled(known, mode, [load])
+
+
+def shapes(known: Buckling, mode: int) -> Iterable[Found]:
+    """The shapes of a mode for the picture; a higher mode fills its panel at a lower load."""
+    own = float(known.loads[mode - 1])
+    return buckled(known, mode, [ratio * own for ratio in SHAPES[: len(SHAPES) + 1 - mode]])
+
+
+def _progress(entries: Iterable[Any], what: str, total: int | None) -> Iterable[Any]:
+    return tqdm(entries, desc=what, total=total, delay=2, leave=False)
+
+
+def _answer(loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found]) -> dict[str, Any]:
+    return {
+        "loads": [{**vars(e), "error": e.error} for e in loads],
+        "extrapolated": [{**vars(e), "error": e.error} for e in limits],
+        "joints": JOINTS,
+        "equilibria": [
+            {
+                "branch": e.branch, "lam": e.point.lam, "tip_angle": e.point.tip_angle, "error": e.point.error,
+                "height": e.point.height, "energy": e.point.energy, "index": e.point.index,
+                "index_verified": e.point.index_verified, "newton": len(e.point.newton), "seconds": e.seconds,
+            }
+            for e in states
+        ],
+    }  # fmt: skip
+
+
+def _write(
+    folder: Path,
+    answer: dict[str, Any],
+    loads: Sequence[Load],
+    limits: Sequence[Extrapolated],
+    states: Sequence[Found],
+    columns: Sequence[tuple[int, Sequence[Found], float]],
+) -> list[Path]:
+    from rodlab.lab.picture import loads_picture, png, shapes_picture
+
+    return [
+        write_whole(folder / "loads.png", png(loads_picture(loads, limits))),
+        write_whole(folder / "shapes.png", png(shapes_picture(columns))),
+        write_whole(folder / "loads.csv", as_csv(*_columns(answer["loads"]))),
+        write_whole(folder / "equilibria.csv", as_csv(*_columns(answer["equilibria"]))),
+        write_whole(folder / "tour.json", as_json(answer) + "\n"),
+    ]
+
+
+def _columns(rows: Sequence[dict[str, Any]]) -> tuple[list[str], list[list[Any]]]:
+    return list(rows[0]), [list(row.values()) for row in rows]
+
+
+def _text(answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found]) -> str:
+    parts = [_loads_table(rule, loads, limits) for rule in RULES]
+    parts.append(
+        table(
+            f"Equilibria of the strut, n = {JOINTS}, before and after buckling",
+            ["load", "branch", "tip angle", "+-", "height", "energy", "index", "Newton", "ms"],
+            [
+                [
+                    f"{e.point.lam:.4f}", e.branch, f"{e.point.tip_angle:.12f}", small(e.point.error),
+                    f"{e.point.height:.6f}", f"{e.point.energy:.6f}",
+                    f"{e.point.index}" + ("" if e.point.index_verified else "?"), len(e.point.newton), f"{1e3 * e.seconds:.1f}",
+                ]
+                for e in states
+            ],
+        )
+    )  # fmt: skip
+    parts.append(
+        "index: negative eigenvalues of the second variation, verified by inertia (? where it is not); 0 is stable.\n"
+        "+-: bound on the error of the tip angle against the exact solution of the same equations. Height and energy have none."
+    )
+    written = "\n".join(f"  {path}" for path in answer["files"])
+    parts.append(f"Written in {answer['seconds']:.1f} s:\n{written}")
+    return "\n\n".join(parts)
+
+
+def _loads_table(rule: str, loads: Sequence[Load], limits: Sequence[Extrapolated]) -> str:
+    rows: list[list[Any]] = []
+    own = [e for e in loads if e.rule == rule]
+    for n in SIZES:
+        at = [e for e in own if e.n == n]
+        cells = [c for e in at for c in (f"{e.load:.9f}", small(e.error), "" if e.order is None else f"{e.order:.2f}")]
+        rows.append([n, *cells, f"{1e3 * sum(e.seconds for e in at):.2f}"])
+    best = [e for e in limits if e.rule == rule]
+    rows.append(["extrapolated", *(c for e in best for c in (known_to(e.load, e.estimate)[:14], small(e.error), "")), ""])
+    rows.append(["its estimate", *(c for e in best for c in ("", small(e.estimate), "")), ""])
+    rows.append(["rod, exact", *(c for e in best for c in (f"{e.limit:.11f}", "", "")), ""])
+    header = ["n", *(c for m in MODES for c in (f"load {m}", "error", "order")), "ms"]
+    return table(f'Buckling loads of the uniform strut, rule "{rule}", and their limit', header, rows)

@@ -1,0 +1,151 @@
+"""Buckling loads of a straight strut: where its second variation is singular [N 2.7, 2.8.1].
+
+At phi = 0 the second variation is D^T k D - lam h W, so that the loads are squared singular values of the bidiagonal matrix
+k^{1/2} D (h W)^{-1/2}: found from its entries, never from the summed tridiagonal one, each keeps its relative accuracy
+whatever n and the ratio of stiffnesses. Uniform strut, K = 1:
+
+    lam_j = 4 n^2 sin^2((2j-1) pi / (2 (2n+1)))  (end)      4 n^2 sin^2((2j-1) pi / (4n))  (trapezoid)
+
+With terms the second variation is D^T k D - C - lam h W, and the loads are bracketed by its inertia, in the mixed form.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from rodlab.mechanics.strut import Strut
+from rodlab.numerics.arrays import EPS, Array, whole
+from rodlab.numerics.bidiagonal import relative_error, right_vector, singular_value
+from rodlab.numerics.difference import DifferenceForm
+from rodlab.numerics.full import Full
+
+
+@dataclass(frozen=True, eq=False)
+class Buckling:
+    """Loads of the modes `numbers`, ascending, shape (m,), with bounds `error` on their absolute error.
+
+    The error is against the exact loads of this strut's springs (of the discrete model, not of its limit).
+    """
+
+    strut: Strut
+    numbers: tuple[int, ...]
+    loads: Array
+    error: Array
+
+    @cached_property
+    def modes(self) -> Array:
+        """Mode shapes (m, n), largest entry 1 in size, first entry positive; computed when asked for, no error estimate."""
+        modes = np.empty((len(self.numbers), self.strut.n))
+        for row, load in zip(modes, self.loads, strict=True):
+            row[:] = mode_shape(self.strut, float(load))
+        return modes
+
+
+def buckling(model: Strut, modes: int | Sequence[int] = 3) -> Buckling:
+    """The first `modes` buckling loads, or those of the mode numbers given; O(n) a mode.
+
+    Raises `ValueError` unless the model is straight and has so many modes.
+
+    >>> b = buckling(Strut.from_joints(k=[1, 1]), 2)
+    >>> b.loads, b.modes.round(3)
+    (array([0.38196601, 2.61803399]), array([[ 0.618,  1.   ],
+           [ 1.   , -0.618]]))
+    """
+    numbers = mode_numbers(model, modes)
+    found = list(buckling_each(model, numbers))
+    loads, error = (np.array(column) for column in zip(*found, strict=True))
+    return Buckling(model, numbers, loads, error)
+
+
+def buckling_loads(model: Strut, modes: int | Sequence[int] = 3) -> Array:
+    """The loads of `buckling`.
+
+    >>> buckling_loads(Strut(n=1000), 3).round(4)
+    array([ 2.4649, 22.1844, 61.6231])
+    """
+    return buckling(model, modes).loads
+
+
+def mode_numbers(model: Any, modes: int | Sequence[int]) -> tuple[int, ...]:
+    """The mode numbers asked for, ascending, checked against the model."""
+    if not isinstance(model, Strut):
+        raise ValueError(f"model must be a Strut; it is {model!r:.60}")
+    if not model.is_straight:
+        raise ValueError("model must be straight to buckle: phi0, u_hat and every rest angle zero, no term that bends it")
+    asked = range(1, whole("modes", modes, least=1) + 1) if np.ndim(modes) == 0 else modes  # type: ignore[arg-type]
+    numbers = tuple(sorted({whole("a mode number", j, least=1) for j in asked}))  # type: ignore[union-attr]
+    if not numbers:
+        raise ValueError("modes must name at least one mode; it is empty")
+    if numbers[-1] > model.n:
+        raise ValueError(f"modes must be at most n = {model.n}, the number of joints; it is {numbers[-1]}")
+    return numbers
+
+
+def buckling_each(model: Strut, numbers: Sequence[int]) -> Iterator[tuple[float, float]]:
+    """(load, error) of each mode number in turn, as they are found."""
+    if model.terms:
+        yield from _loads_with_terms(model, numbers)
+        return
+    a, b = bidiagonal(model)
+    for j in numbers:
+        load = singular_value(a, b, j) ** 2
+        yield load, relative_error(model.n) * load
+
+
+def bidiagonal(strut: Strut) -> tuple[Array, Array]:
+    """Diagonal and subdiagonal of k^{1/2} D (h W)^{-1/2}; signs do not matter to singular values."""
+    hw = strut.joints.h * strut.joints.w
+    k = strut.joints.k
+    return np.sqrt(k / hw), -np.sqrt(k[1:] / hw[:-1])
+
+
+def mode_shape(strut: Strut, load: float) -> Array:
+    """The shape (n,) that buckles at a load, largest entry 1, first entry positive."""
+    hw = strut.joints.h * strut.joints.w
+    if strut.terms:
+        factor = strut.hessian(np.zeros(strut.n), load).factor()
+        phi = np.sin(np.arange(1.0, strut.n + 1))
+        for _ in range(4):
+            phi = factor.solve(hw * phi)
+            phi /= np.abs(phi).max()
+    else:
+        phi = right_vector(*bidiagonal(strut), np.sqrt(load)) / np.sqrt(hw)
+    phi *= np.sign(phi[0]) / np.abs(phi).max()
+    return np.asarray(phi)
+
+
+def _loads_with_terms(strut: Strut, numbers: Sequence[int]) -> Iterator[tuple[float, float]]:
+    """Loads bracketed by the index of the second variation at phi = 0, which rises by one at each."""
+    hw = strut.joints.h * strut.joints.w
+    unloaded = strut.hessian(np.zeros(strut.n), 0.0)
+    if isinstance(unloaded, Full):
+        scale = 1 / np.sqrt(hw)
+        w = np.linalg.eigvalsh(scale[:, None] * unloaded.toarray() * scale)
+        bound = 4 * strut.n * EPS * float(np.abs(w).max())
+        yield from ((float(w[j - 1]), bound) for j in numbers)
+        return
+    if not isinstance(unloaded, DifferenceForm):
+        raise ValueError("the terms of the strut turn its springs negative; it has no buckling loads to bracket")
+    reach = float((np.abs(unloaded.diagonal).max() + 2 * strut.springs.k.max()) / hw.min())
+
+    def below(load: float) -> tuple[int, int]:
+        known = DifferenceForm(strut.springs, unloaded.c + load * hw).inertia((4 * EPS) * np.abs(unloaded.c).max())
+        return known.negative, known.negative + known.unclear
+
+    for j in numbers:
+        low = _last(lambda load, j=j: below(load)[1] < j, -reach, reach)  # type: ignore[misc]
+        high = -_last(lambda load, j=j: below(-load)[0] >= j, -reach, reach)  # type: ignore[misc]
+        yield (low + high) / 2, (high - low) / 2 + relative_error(strut.n) * abs(low + high) / 2
+
+
+def _last(holds: Any, low: float, high: float) -> float:
+    """The last float at which `holds`, true at `low` and false at `high`, by bisection."""
+    for _ in range(1100):
+        middle = low + (high - low) / 2
+        if not low < middle < high or high - low <= 2 * EPS * abs(low):
+            break
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return low
