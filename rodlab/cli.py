@@ -3,13 +3,18 @@
 Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 not converged. Answers go to stdout, all else to stderr.
 """
 
+from __future__ import annotations
+
 import argparse
 import sys
 import time
-from collections.abc import Sequence
-from typing import Any
 
 from rodlab import __version__
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import Any
 
 WELCOME = f"""rodlab {__version__}: a teaching laboratory for elastic rods
 
@@ -64,9 +69,7 @@ def buckling(chosen: argparse.Namespace) -> int:
     start = time.perf_counter()
     strut = Strut(n=chosen.n, K=_number_or_text(chosen.K), rule=chosen.rule, breaks=tuple(chosen.breaks))
     numbers = mode_numbers(strut, chosen.modes)
-    found = []
-    for entry in _progress(buckling_each(strut, numbers), "buckling loads", len(numbers), chosen.n * len(numbers)):
-        found.append(entry)
+    found = list(_progress(buckling_each(strut, numbers), "buckling loads", len(numbers), chosen.n * len(numbers)))
     loads, error = zip(*found, strict=True)
     seconds = time.perf_counter() - start
     if chosen.json:
@@ -74,7 +77,7 @@ def buckling(chosen: argparse.Namespace) -> int:
         answer = framed("buckling", seconds, {**asked, "modes": list(numbers), "loads": loads, "error": error})
         print(as_json(answer))
     else:
-        rows = [[j, known_to(load, e), small(e)] for j, load, e in zip(numbers, loads, error, strict=True)]
+        rows: list[list[Any]] = [[j, known_to(load, e), small(e)] for j, load, e in zip(numbers, loads, error, strict=True)]
         print(table(f"Buckling loads of {strut!r}", ["mode", "load", "error at most"], rows))
         print(f"in {1e3 * seconds:.1f} ms")
     return 0

@@ -33,8 +33,9 @@ def steepest_descent(
     """The minimum that steepest descent reaches, and its history, one entry a step.
 
     A step may not raise the energy nor pass the lowest point of its line, told by the gradient there, which unlike
-    the energy is not drowned by rounding near the minimum; the next one tries twice its length. Stops when the gradient's norm is below tol times its largest. The model must know its energy (`measures`). The
-    point's error is its distance from the root that Newton's method finds next to it.
+    the energy is not drowned by rounding near the minimum; the next one tries twice its length. Stops
+    when the gradient's norm is below tol times its largest. The model must know its energy (`measures`). The point's
+    error is its distance from the root that Newton's method finds next to it.
     Raises `NoConvergence` after `limit` steps: for n joints it needs of the order of n^2 of them.
 
     >>> from rodlab.mechanics.strut import Strut
@@ -64,7 +65,8 @@ def steepest_descent(
         history.append(DescentStep(energy, size, t))
         u, energy, g = trial, after, gradient
     raise NoConvergence(
-        f"steepest descent has not arrived after {limit} steps: its gradient fell from {largest:.2g} to {size:.2g}", tuple(history)
+        f"steepest descent has not arrived after {limit} steps: its gradient fell from {largest:.2g} to {size:.2g}",
+        tuple(history),
     )
 
 

@@ -80,32 +80,33 @@ class Newton:
         if F is None:
             raise NoConvergence("Newton cannot start: the residual at the first guess is not finite", ())
         start = self.norm(u)
-        before: tuple[Array, Array] | None = None
-        last = contraction = math.inf
+        while True:
+            found = self._plain(u, F, start)
+            if isinstance(found, Solution):
+                return found
+            u, F = self._damped(*found)
+
+    def _plain(self, u: Array, F: Array, start: float) -> Solution | tuple[Array, Array]:
+        """Full steps: a root, or the last iterate and residual from which they still contracted."""
+        before, last, contraction = (u, F), math.inf, math.inf
         while len(self.history) < self.limit:
             if not F.any():  # exactly in equilibrium, be the Jacobian singular or not
                 self._tell(0.0, F)
                 return self._solution(u, F, 0.0)
             step = self._step(u, F)
             size = self.norm(step) if step is not None else math.inf
-            floor = 2 * EPS * max(self.norm(u), 1e-3 * start)
             self._tell(size, F)
+            floor = 2 * EPS * max(self.norm(u), 1e-3 * start)
             if step is not None and size <= floor:
                 return self._solution(u + step, step, size)
-            if not size < last and before is not None:
+            if not size < last or step is None:
                 if last <= FLOOR * max(self.norm(u), start):  # rounding: steps can shrink no more
                     return self._solution(u, u - before[0], last * max(1.0, contraction / (1 - contraction)))
-                u, F = self._damped(*before)
-                before, last, contraction = None, math.inf, math.inf
-                continue
-            if step is None:
-                raise self._failure("the Jacobian is singular at the first guess")
-            previous, contraction = contraction, size / last if last < math.inf else math.inf
+                return before
             after = self._residual(u + step)
             if after is None:
-                u, F = self._damped(u, F)
-                before, last, contraction = None, math.inf, math.inf
-                continue
+                return u, F
+            previous, contraction = contraction, size / last if last < math.inf else math.inf
             left = _remaining(size, contraction, previous)
             if left <= floor:
                 return self._solution(u + step, step, left)
@@ -115,40 +116,39 @@ class Newton:
 
     def _damped(self, u: Array, F: Array) -> tuple[Array, Array]:
         """Steps of the length that natural monotonicity allows, until a full one contracts well."""
-        t = 1.0
-        step_before: Array | None = None
-        simplified: Array | None = None
+        t, before = 1.0, None
         while len(self.history) < self.limit:
-            J = self._factor(u)
-            step = J and _finite(J.solve(-F))
-            if J is None or step is None:
+            with np.errstate(all="ignore"):
+                J = factor(self.jacobian(u))
+                step = _finite(J.solve(-F))
+            if step is None:
                 raise self._failure("the Jacobian is singular where a damped step would start")
             size = self.norm(step)
             if size <= 2 * EPS * self.norm(u):
                 return u, F
-            if step_before is not None and simplified is not None:  # predict from the change of the step
-                change = self.norm(simplified - step)
-                t = min(1.0, t * self.norm(step_before) * self.norm(simplified) / (change * size) if change else 1.0)
-            while True:
-                if t < SHORTEST:
-                    raise self._failure(f"a step of {size:.2g} had to be cut below {SHORTEST:g} of its length")
-                self._tell(size, F, t)
-                trial = self._residual(u + t * step)
-                simplified = None if trial is None else _finite(J.solve(-trial))
-                if trial is not None and simplified is not None:
-                    shorter = self.norm(simplified)
-                    if shorter <= (1 - t / 4) * size:
-                        break
-                    defect = self.norm(simplified - (1 - t) * step)
-                    t = min(0.5 * t * t * size / defect, t / 2)
-                else:
-                    t /= 4
-                if len(self.history) >= self.limit:
-                    raise self._failure(f"{self.limit} linear solves did not suffice for a damped step")
-            u, F, step_before = u + t * step, trial, step
-            if t == 1.0 and shorter < size / 4:
+            if before is not None:  # the length that the change of the last step foretells [Deuflhard, 3.3.2]
+                change = self.norm(before[1] - step) * size
+                t = min(1.0, t * self.norm(before[0]) * self.norm(before[1]) / change) if change else 1.0
+            t, u, F, simplified = self._shortened(u, F, J, step, t)
+            if t == 1.0 and self.norm(simplified) < size / 4:
                 return u, F
+            before = (step, simplified)
         raise self._failure(f"after {self.limit} linear solves the damped step was still {self.history[-1].step:.2g}")
+
+    def _shortened(self, u: Array, F: Array, J: Factor, step: Array, t: float) -> tuple[float, Array, Array, Array]:
+        """The longest t tried for which the simplified step from u + t step is shorter by 1 - t/4."""
+        size = self.norm(step)
+        while t >= SHORTEST and len(self.history) < self.limit:
+            self._tell(size, F, t)
+            trial = self._residual(u + t * step)
+            simplified = None if trial is None else _finite(J.solve(-trial))
+            if trial is None or simplified is None:
+                t /= 4
+                continue
+            if self.norm(simplified) <= (1 - t / 4) * size:
+                return t, u + t * step, trial, simplified
+            t = min(t * t * size / (2 * self.norm(simplified - (1 - t) * step)), t / 2)
+        raise self._failure(f"a step of {size:.2g} was cut to {t:.1g} of its length in vain")
 
     def _residual(self, u: Array) -> Array | None:
         with np.errstate(all="ignore"):
@@ -162,10 +162,6 @@ class Newton:
     def _step(self, u: Array, F: Array) -> Array | None:
         with np.errstate(all="ignore"):
             return _finite(solve(self.jacobian(u), -F))
-
-    def _factor(self, u: Array) -> Factor | None:
-        with np.errstate(all="ignore"):
-            return factor(self.jacobian(u))
 
     def _tell(self, size: float, F: Array, damping: float = 1.0) -> None:
         self.history.append(NewtonStep(size, self.norm(F), damping))

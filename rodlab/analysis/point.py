@@ -150,5 +150,7 @@ class Point:
             if own is not None:
                 rounding = float(own(self.u, self.lam, v))
             else:
-                rounding = float(4 * EPS * np.abs(v) @ (abs(J) @ np.abs(self.u) + np.abs(self.equations.residual(self.u, self.lam))))
+                rounding = float(
+                    4 * EPS * np.abs(v) @ (abs(J) @ np.abs(self.u) + np.abs(self.equations.residual(self.u, self.lam)))
+                )
         return self.remaining + EPS * abs(float(self.u[-1])) + (rounding if np.isfinite(rounding) else np.inf)

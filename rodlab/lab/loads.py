@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from rodlab.mechanics.buckling import buckling_each
 from rodlab.mechanics.joints import RULES
@@ -79,7 +80,7 @@ def extrapolate(loads: Sequence[Load]) -> Extrapolated:
     rounding, power = max(entry.bound for entry in loads), ORDER[rule]
     best, estimate = column[-1], math.inf
     while len(column) > 1:
-        column = [b + (b - a) / (2**power - 1) for a, b in zip(column, column[1:], strict=False)]
+        column = [b + (b - a) / (2**power - 1) for a, b in pairwise(column)]
         change = abs(column[-1] - best) + rounding
         if change >= estimate:  # further stages only turn rounding over
             break

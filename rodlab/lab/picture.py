@@ -63,8 +63,8 @@ def shapes_picture(columns: Sequence[tuple[int, Sequence[Found], float]]) -> Fig
         _clamp(axes)
         axes.annotate("", (0, 1.05), (0, 1.25), arrowprops={"arrowstyle": "-|>", "lw": 1.2, "color": "k"})
         axes.text(-0.04, 1.15, r"$\lambda$", fontsize=11, ha="right")
-        index = {entry.point.index for entry in found}
-        axes.set_title(f"mode {mode}, index {', '.join(map(str, sorted(index)))}", fontsize=10)
+        index = sorted({str(entry.point.index) for entry in found})
+        axes.set_title(f"mode {mode}, index {', '.join(index)}", fontsize=10)
         axes.set_aspect("equal")
         axes.set_xlim(-0.2, 0.92)
         axes.set_ylim(-0.55, 1.3)

@@ -1,5 +1,7 @@
-"""The tour, rodlab's main job: the strut at several n, its buckling loads on their way to the rod's, and its
-equilibria before and after buckling. Tables for the terminal, pictures and data for a folder."""
+"""The tour, rodlab's main job: the strut at several n, before and after buckling, on its way to the rod.
+
+Tables for the terminal; pictures and data for a folder.
+"""
 
 import time
 from collections.abc import Iterable, Sequence
@@ -9,10 +11,12 @@ from typing import Any
 from tqdm import tqdm
 
 from rodlab.lab.buckled import Found, buckled, straight
-from rodlab.lab.loads import RULES, Extrapolated, Load, extrapolate, loads_against_n
+from rodlab.lab.loads import Extrapolated, Load, extrapolate, loads_against_n
+from rodlab.lab.picture import loads_picture, png, shapes_picture
 from rodlab.lab.store import as_csv, as_json, framed, write_whole
 from rodlab.lab.table import known_to, small, table
 from rodlab.mechanics.buckling import Buckling, buckling
+from rodlab.mechanics.joints import RULES
 from rodlab.mechanics.strut import Strut
 
 SIZES = tuple(8 * 2**i for i in range(10))
@@ -31,8 +35,14 @@ def tour(folder: Path) -> tuple[dict[str, Any], str]:
     states = list(_progress(before_and_after(strut, known), "equilibria", None))
     columns = [(m, list(shapes(known, m)), float(known.loads[m - 1])) for m in MODES]
     answer = framed("tour", time.perf_counter() - start, _answer(loads, limits, states))
-    files = _write(folder, answer, loads, limits, states, columns)
-    answer["files"] = [str(path) for path in files]
+    files: dict[str, bytes | str] = {
+        "loads.png": png(loads_picture(loads, limits)),
+        "shapes.png": png(shapes_picture(columns)),
+        "loads.csv": as_csv(*_columns(answer["loads"])),
+        "equilibria.csv": as_csv(*_columns(answer["equilibria"])),
+        "tour.json": as_json(answer) + "\n",
+    }
+    answer["files"] = [str(write_whole(folder / name, content)) for name, content in files.items()]
     answer["seconds"] = time.perf_counter() - start
     return answer, _text(answer, loads, limits, states)
 
@@ -71,25 +81,6 @@ def _answer(loads: Sequence[Load], limits: Sequence[Extrapolated], states: Seque
             for e in states
         ],
     }  # fmt: skip
-
-
-def _write(
-    folder: Path,
-    answer: dict[str, Any],
-    loads: Sequence[Load],
-    limits: Sequence[Extrapolated],
-    states: Sequence[Found],
-    columns: Sequence[tuple[int, Sequence[Found], float]],
-) -> list[Path]:
-    from rodlab.lab.picture import loads_picture, png, shapes_picture
-
-    return [
-        write_whole(folder / "loads.png", png(loads_picture(loads, limits))),
-        write_whole(folder / "shapes.png", png(shapes_picture(columns))),
-        write_whole(folder / "loads.csv", as_csv(*_columns(answer["loads"]))),
-        write_whole(folder / "equilibria.csv", as_csv(*_columns(answer["equilibria"]))),
-        write_whole(folder / "tour.json", as_json(answer) + "\n"),
-    ]
 
 
 def _columns(rows: Sequence[dict[str, Any]]) -> tuple[list[str], list[list[Any]]]:

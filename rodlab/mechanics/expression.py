@@ -63,8 +63,8 @@ class Expression:
 
     def _compile(self, node: ast.expr) -> Node:
         match node:
-            case ast.Constant(value=bool()):
-                raise _NotAllowed(f"{node.value} stands alone")
+            case ast.Constant(value=bool() as x):
+                raise _NotAllowed(f"{x} stands alone")
             case ast.Constant(value=int() | float() as x):
                 return _constant(x)
             case ast.Name(id="s"):
@@ -100,9 +100,9 @@ class Expression:
             match piece:
                 case ast.Tuple(elts=[value, ast.Constant(value=True)]) if piece is pieces[-1]:
                     yield self._compile(value), math.inf
-                case ast.Tuple(elts=[value, ast.Compare(left=ast.Name(id="s"), ops=[ast.Lt() | ast.LtE() as below], comparators=[bound])]) if (
-                    piece is not pieces[-1]
-                ):
+                case ast.Tuple(
+                    elts=[value, ast.Compare(left=ast.Name(id="s"), ops=[ast.Lt() | ast.LtE() as below], comparators=[bound])]
+                ) if piece is not pieces[-1]:
                     a = float(self._compile(bound)(np.nan))
                     if not math.isfinite(a):
                         raise _NotAllowed("a bound of Piecewise must be a number")
@@ -118,7 +118,7 @@ class _NotAllowed(Exception):
 
 def _constant(x: float) -> Node:
     value = np.float64(x) if abs(x) < 1e308 else np.float64(math.inf)
-    return lambda s: value
+    return lambda _: value
 
 
 def _name(node: ast.AST) -> str:

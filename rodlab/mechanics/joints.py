@@ -36,7 +36,7 @@ class Joints:
     @property
     def s(self) -> Array:
         """Arclength of the joints 1..n, shape (n,)."""
-        return np.arange(1, self.n + 1) * self.h
+        return np.arange(1.0, self.n + 1) * self.h
 
     @property
     def w(self) -> Array:

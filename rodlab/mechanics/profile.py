@@ -92,7 +92,7 @@ class Profile:
         cuts = np.union1d(edges, inside)
         home = np.searchsorted(edges, cuts[:-1], side="right") - 1
         try:
-            return np.bincount(home, integrals(f, cuts), edges.size - 1)
+            return np.asarray(np.bincount(home, integrals(f, cuts), edges.size - 1), dtype=np.float64)
         except ValueError as error:
             if self.name in str(error):
                 raise

@@ -155,7 +155,8 @@ class Strut:
         """d(gradient)/dlam, shape (n,)."""
         phi, lam = self._state(phi, lam)
         link = self.kernel()
-        return _balance(*link.moments_lam(self._below(phi), phi, lam, **self._given(link)), phi)
+        m, f = link.moments_lam(self._below(phi), phi, lam, **self._given(link))
+        return _balance(m, f, phi)
 
     # --- the equations F(u, lam) = 0 that a solver sees -------------------------------------------------------
 
@@ -187,8 +188,8 @@ class Strut:
     def measures(self) -> dict[str, Callable[[Array, float], float]]:
         """Name -> function of (u, lam): what a point can be asked for."""
         return {
-            "tip_angle": lambda u, lam: float(u[-1]),
-            "height": lambda u, lam: self.height(u),
+            "tip_angle": lambda u, _: float(u[-1]),
+            "height": lambda u, _: self.height(u),
             "energy": self.energy,
         }
 
@@ -240,7 +241,7 @@ class Strut:
 
     def nodes(self, phi: Array) -> tuple[Array, Array]:
         """s and phi of the n + 1 joints, the clamp first."""
-        return np.arange(self.n + 1) * self.joints.h, np.append(self.joints.phi0, phi)
+        return np.arange(self.n + 1.0) * self.joints.h, np.append(self.joints.phi0, phi)
 
     def derivation(self, n: int = 3) -> "Derivation":
         """SymPy's energy, gradient and Hessian of this strut with n joints, and the source of its kernel."""
@@ -296,13 +297,13 @@ def _difference_form(springs: Springs | Array, c: Array) -> DifferenceForm | Tri
 
 
 def _checked_terms(terms: Any) -> tuple[Term, ...]:
-    terms = (terms,) if isinstance(terms, Term) else tuple(terms)
+    given: tuple[Any, ...] = (terms,) if isinstance(terms, Term) else tuple(terms)
     taken: dict[str, str] = dict.fromkeys(("a", "b", "x", "z", "lam", "k", "beta", "h", "w"), "the strut")
-    for term in terms:
+    for term in given:
         if not isinstance(term, Term):
             raise ValueError(f"terms must be made by self_weight, foundation, end_torque or term; one is {term!r}")
         for name in term.parameters:
             if name in taken:
                 raise ValueError(f"the parameter {name} of {term.name} is already that of {taken[name]}; rename it")
             taken[name] = term.name
-    return terms
+    return given

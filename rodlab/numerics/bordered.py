@@ -34,8 +34,8 @@ class _OneBorder:
     def __init__(self, inner: Solves, b: Array, c: Array, d: float) -> None:
         self.inner, self.b, self.c, self.d = inner, b, c, d
         self.v, self.w = inner.solve(b), inner.solve_transposed(c)
-        self.right = _nonzero(d - c @ self.v)
-        self.left = _nonzero(d - self.w @ b)
+        self.right = _nonzero(float(d - c @ self.v))
+        self.left = _nonzero(float(d - self.w @ b))
 
     def solve(self, fg: Array, /) -> Array:
         return self._solve(fg, self.inner.solve, self.b, self.c, self.v, self.w, self.right, self.left)
@@ -96,4 +96,4 @@ class Bordered:
 
 
 def _nonzero(pivot: float) -> float:
-    return float(pivot) or EPS
+    return pivot or EPS

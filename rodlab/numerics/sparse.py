@@ -33,7 +33,7 @@ class SparseFactor:
         self.matrix = A
         self._scale = float(np.abs(A.data).max(initial=0.0)) or TINY
         try:
-            self._lu = splu(A)
+            self._lu: Any = splu(A)
         except RuntimeError:  # SuperLU: "Factor is exactly singular"
             self._lu = splu(csc_array(A + 4 * EPS * self._scale * eye_array(A.shape[0])))
 
