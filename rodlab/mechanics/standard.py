@@ -20,11 +20,11 @@ class bending:
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, k: Value) -> Value:
-        return (1/2)*k*(-a + b)**2
+        return (1/2)*k*(b - a)**2
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, k: Value) -> tuple[Value, Value]:
-        return k*(-a + b), 0.0
+        return k*(b - a), 0.0
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, k: Value) -> tuple[Value, Value, Value]:
@@ -44,11 +44,11 @@ class bending_with_rest:
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, beta: Value, k: Value) -> Value:
-        return (1/2)*k*(-a + b - beta)**2
+        return (1/2)*k*(b - a - beta)**2
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, beta: Value, k: Value) -> tuple[Value, Value]:
-        return k*(-a + b - beta), 0.0
+        return k*(b - a - beta), 0.0
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, beta: Value, k: Value) -> tuple[Value, Value, Value]:
@@ -68,11 +68,11 @@ class bending_and_end_load:
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, h: Value, k: Value) -> Value:
-        return h*lam*cos(b) + (1/2)*k*(-a + b)**2
+        return h*lam*cos(b) + (1/2)*k*(b - a)**2
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, h: Value, k: Value) -> tuple[Value, Value]:
-        return k*(-a + b), -h*lam*sin(b)
+        return k*(b - a), -h*lam*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, h: Value, k: Value) -> tuple[Value, Value, Value]:
@@ -92,11 +92,11 @@ class bending_and_end_load_weighted:
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, h: Value, k: Value, w: Value) -> Value:
-        return h*lam*w*cos(b) + (1/2)*k*(-a + b)**2
+        return h*lam*w*cos(b) + (1/2)*k*(b - a)**2
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return k*(-a + b), -h*lam*w*sin(b)
+        return k*(b - a), -h*lam*w*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
@@ -116,11 +116,11 @@ class bending_with_rest_and_end_load:
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value) -> Value:
-        return h*lam*cos(b) + (1/2)*k*(-a + b - beta)**2
+        return h*lam*cos(b) + (1/2)*k*(b - a - beta)**2
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return k*(-a + b - beta), -h*lam*sin(b)
+        return k*(b - a - beta), -h*lam*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
@@ -140,11 +140,11 @@ class bending_with_rest_and_end_load_weighted:
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, w: Value) -> Value:
-        return h*lam*w*cos(b) + (1/2)*k*(-a + b - beta)**2
+        return h*lam*w*cos(b) + (1/2)*k*(b - a - beta)**2
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return k*(-a + b - beta), -h*lam*w*sin(b)
+        return k*(b - a - beta), -h*lam*w*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:

@@ -57,12 +57,17 @@ class Tridiagonal(Symmetric):
         return y
 
     def solve(self, b: Array) -> Array:
-        """x with T x = b, by Gaussian elimination with partial pivoting (dgtsv), linear in n."""
-        if self.diagonal.size > 1:
-            *_, x, info = lapack.dgtsv(self.off_diagonal, self.diagonal, self.off_diagonal, b)
-            if info == 0:
-                return np.asarray(x)
-        return self.factor().solve(b)
+        """x with T x = b, linear in n: L D L^T where its pivots stay away from zero, else dgtsv with partial pivoting."""
+        n = self.diagonal.size
+        if n == 1:
+            return self.factor().solve(b)
+        pivots, multipliers = self.diagonal.copy(), self.off_diagonal.copy()
+        negative, done = _factor_in_place(pivots, multipliers, 64, closed=False)
+        if done == n and (negative == 0 or _away_from_zero(pivots, self.diagonal)):
+            x, _ = lapack.dpttrs(pivots, multipliers, b)
+            return np.asarray(x)
+        *_, x, info = lapack.dgtsv(self.off_diagonal, self.diagonal, self.off_diagonal, b)
+        return self.factor().solve(b) if info else np.asarray(x)
 
     def factor(self) -> "TridiagonalFactor":
         """L U with partial pivoting, for many right-hand sides."""
@@ -132,32 +137,48 @@ def _count_finite(d: Array, off_diagonal: Array, *, closed: bool) -> int:
     """The same, overwriting `d`."""
     if not is_finite(d):
         raise ValueError("diagonal must be finite; an entry overflowed")
-    below = int(np.count_nonzero(d < 0))
-    if 2 * below > d.size:  # count the fewer: -T has the positive ones of T
-        return d.size - _count(np.negative(d, out=d), off_diagonal.copy(), d.size - below, closed=not closed)
+    n, below = d.size, int(np.count_nonzero(d < 0))
+    if 2 * below > n:  # count the fewer: -T has the positive ones of T
+        return n - _count(np.negative(d, out=d), off_diagonal.copy(), n - below, closed=not closed)
     return _count(d, off_diagonal.copy(), below, closed=closed)
 
 
 def _count(d: Array, e: Array, guess: int, *, closed: bool) -> int:
-    """Pivots of L D L^T below zero, computed in place: dpttrf runs to the next one that is not positive."""
-    n, start, count = d.size, 0, 0
-    few = 64 + n // 256  # stopping and starting beats dstebz while negative pivots are few
-    for _ in range(few if guess < few else 0):
+    few = 64 + d.size // 256  # stopping and starting beats dstebz while negative pivots are few
+    negative, done = _factor_in_place(d, e, few if guess < few else 0, closed=closed)
+    return negative if done == d.size else negative + _count_by_bisection(d[done:], e[done:], closed=closed)
+
+
+def _factor_in_place(d: Array, e: Array, stops: int, *, closed: bool) -> tuple[int, int]:
+    """T = L D L^T without pivoting: D over d, the multipliers over e; (negative pivots, rows done).
+
+    dpttrf runs to the next pivot that is not positive; after as many stops as allowed the rest is left undone, d holding
+    there what is to be factored. An exact zero counts as negative if `closed`.
+    """
+    n, start, negative = d.size, 0, 0
+    for _ in range(stops):
         if start == n - 1:
-            return count + int(d[start] < 0 or (closed and d[start] == 0))
+            return negative + int(d[start] < 0 or (closed and d[start] == 0)), n
         *_, info = lapack.dpttrf(d[start:], e[start:], overwrite_d=1, overwrite_e=1)
         if info == 0:
-            return count
+            return negative, n
         i = start + info - 1
         if d[i] == 0:
             d[i] = -TINY if closed else TINY
-        count += int(d[i] < 0)
-        if i == n - 1:
-            return count
-        with np.errstate(over="ignore"):
-            d[i + 1] -= e[i] / d[i] * e[i]
+        negative += int(d[i] < 0)
         start = i + 1
-    return count + _count_by_bisection(d[start:], e[start:], closed=closed)
+        if start == n:
+            return negative, n
+        with np.errstate(over="ignore"):
+            multiplier = e[i] / d[i]
+            d[start] -= multiplier * e[i]
+            e[i] = multiplier
+    return negative, start
+
+
+def _away_from_zero(pivots: Array, diagonal: Array) -> bool:
+    """True when no pivot is so small that elimination without pivoting loses more than half the digits."""
+    return float(np.abs(pivots).min()) > 1e-7 * max(float(diagonal.max()), -float(diagonal.min()))
 
 
 def _count_by_bisection(d: Array, e: Array, *, closed: bool) -> int:
