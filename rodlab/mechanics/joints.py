@@ -81,7 +81,8 @@ def by_rule(n: Any, K: Any, u_hat: Any, rule: str, phi0: Any, breaks: Sequence[A
     stiffness = Profile("K", K, at)
     if stiffness.constant is not None:
         number("K", K, above=0.0)
-    joints = sample(n, stiffness, Profile("u_hat", u_hat, at), rule, number("phi0", phi0))
+    with np.errstate(over="ignore"):
+        joints = sample(n, stiffness, Profile("u_hat", u_hat, at), rule, number("phi0", phi0))
     if not (np.isfinite(joints.k).all() and joints.k.min() > 0):
         raise ValueError(f"K must give springs k_i = K n that a float can hold; the largest is {joints.k.max():g}")
     return joints
