@@ -113,8 +113,7 @@ def mode_shape(strut: Strut, load: float) -> Array:
             phi /= np.abs(phi).max()
     else:
         phi = right_vector(*bidiagonal(strut), np.sqrt(load)) / np.sqrt(hw)
-    phi *= np.sign(phi[0]) / np.abs(phi).max()
-    return np.asarray(phi)
+    return np.asarray(phi / (np.sign(phi[0]) * np.abs(phi).max()))
 
 
 def _loads_with_terms(strut: Strut, numbers: Sequence[int]) -> Iterator[tuple[float, float]]:

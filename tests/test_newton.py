@@ -1,0 +1,213 @@
+"""Newton's method, steepest descent, points and their errors; equations that are no rods."""
+
+import numpy as np
+import pytest
+from conftest import exact_tip, struts
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.sparse import csr_array
+
+import rodlab as rl
+
+
+class TwoStruts:
+    """A student's class: two uncoupled equal struts, four methods and nothing else."""
+
+    def __init__(self, n, sparse=False):
+        self.one, self.n, self.sparse = rl.Strut(n=n), n, sparse
+
+    def residual(self, u, lam):
+        return np.concatenate([self.one.gradient(half, lam) for half in np.split(u, 2)])
+
+    def jacobian(self, u, lam):
+        H = [self.one.hessian(half, lam).toarray() for half in np.split(u, 2)]
+        dense = np.block([[H[0], np.zeros((self.n, self.n))], [np.zeros((self.n, self.n)), H[1]]])
+        return csr_array(dense) if self.sparse else dense
+
+    def d_lam(self, u, lam):
+        return np.concatenate([self.one.d_lam(half, lam) for half in np.split(u, 2)])
+
+    def inner(self, u, v):
+        return u @ v / self.n
+
+
+class Rotation:
+    """Not a gradient: no index."""
+
+    def residual(self, u, lam):
+        return np.array([u[0] + u[1] - lam, u[1] - u[0]])
+
+    def jacobian(self, u, lam):
+        return np.array([[1.0, 1.0], [-1.0, 1.0]])
+
+    def d_lam(self, u, lam):
+        return np.array([-1.0, 0.0])
+
+    def inner(self, u, v):
+        return u @ v
+
+
+@pytest.mark.parametrize("sparse", [False, True])
+def test_a_students_class_works_as_it_is(sparse):
+    model = TwoStruts(4, sparse)
+    assert isinstance(model, rl.Equations)
+    s = np.arange(1, 5) / 4
+    p = rl.equilibrium(model, 5.0, np.concatenate([2 * s, -2 * s]))
+    alone = rl.equilibrium(model.one, 5.0, 2 * s)
+    assert p.u == pytest.approx(np.concatenate([alone.u, -alone.u]), abs=1e-12)
+    assert (p.index, p.nullity, p.index_verified) == (0, 0, True)
+    assert rl.equilibrium(model, 5.0, np.zeros(8)).index == 2
+    assert p.error < 1e-12
+    with pytest.raises(AttributeError, match="TwoStruts has no measure tip_angle"):
+        _ = p.tip_angle
+    with pytest.raises(AttributeError, match="TwoStruts has no shape"):
+        _ = p.x
+    with pytest.raises(ValueError, match="guess must be given: TwoStruts has no state to start from"):
+        rl.equilibrium(model, 5.0)
+
+
+def test_without_symmetry_there_is_no_index():
+    p = rl.equilibrium(Rotation(), 2.0, [0.0, 0.0])
+    assert p.u == pytest.approx([1, 1])
+    assert (p.index, p.nullity, p.index_verified) == (None, None, False)
+
+
+def test_convergence_is_quadratic():
+    """step_{k+1} = C step_k^2: the exponent, from the history alone."""
+    strut = rl.Strut(n=50)
+    p = rl.equilibrium(strut, 5.0, lambda s: 2 * np.sin(np.pi * s / 2))
+    logs = np.log([entry.step for entry in p.newton])[1:4]
+    assert (logs[2] - logs[1]) / (logs[1] - logs[0]) == pytest.approx(2, abs=0.25)
+    assert all(entry.damping == 1 for entry in p.newton)
+    residuals = [entry.residual for entry in p.newton]
+    assert residuals[-1] < 1e-8 * residuals[0]
+
+
+def test_arctan_needs_damping():
+    """Newton's method for arctan diverges from 2 and converges damped."""
+    run = rl.Newton(np.arctan, lambda u: np.diag(1 / (1 + u**2)), lambda v: float(np.abs(v).max()))
+    root = run.solve(np.array([10.0]))
+    assert root.u == pytest.approx([0.0], abs=1e-15)
+    assert min(entry.damping for entry in root.history) < 1
+
+
+def test_no_root_is_said_with_the_history():
+    run = rl.Newton(lambda u: u**2 + 1, lambda u: np.diag(2 * u), lambda v: float(np.abs(v).max()))
+    with pytest.raises(rl.NoConvergence, match="Newton did not converge") as caught:
+        run.solve(np.array([3.0]))
+    assert len(caught.value.history) > 2
+    assert caught.value.history[0].residual == 10
+
+
+def test_a_residual_that_is_not_finite_at_first_is_said():
+    run = rl.Newton(np.log, lambda u: np.diag(1 / u), lambda v: float(np.abs(v).max()))
+    with pytest.raises(rl.NoConvergence, match="not finite"):
+        run.solve(np.array([-1.0]))
+
+
+def test_steps_out_of_the_domain_are_cut():
+    run = rl.Newton(np.log, lambda u: np.diag(1 / u), lambda v: float(np.abs(v).max()))
+    assert run.solve(np.array([30.0])).u == pytest.approx([1.0])
+
+
+@pytest.mark.parametrize("lam", [1.0, 5.0, 30.0, 200.0, -30.0, -1000.0, 1e5])
+def test_every_guess_leads_to_an_equilibrium(lam):
+    """Where Newton's method fails from far away the way down the energy finds a minimum: no failure in 150."""
+    rng = np.random.default_rng(5)
+    for n in (1, 2, 7, 60):
+        for u_hat in (0.0, 3.0):
+            strut = rl.Strut(n=n, u_hat=u_hat)
+            for _ in range(4):
+                p = rl.equilibrium(strut, lam, rng.uniform(-3, 3, n))
+                scale = strut.joints.k.max() * max(1.0, np.abs(p.u).max()) + abs(lam)
+                assert np.abs(strut.gradient(p.u, lam)).max() <= 1e-11 * scale
+
+
+def test_steepest_descent_reaches_the_minimum_and_needs_n_squared_steps():
+    """[N 2.7]: from anywhere to a minimum, slowly. Doubling n costs four times the steps; Newton's method does not mind."""
+    counts = []
+    for n in (4, 8, 16):
+        strut = rl.Strut(n=n)
+        p, history = rl.steepest_descent(strut, 5.0, 0.1 * strut.joints.s)
+        newton = rl.equilibrium(strut, 5.0, p.u)
+        assert p.index == 0
+        assert abs(p.tip_angle - newton.tip_angle) <= p.error < 1e-6
+        assert (np.diff([entry.energy for entry in history]) < 1e-14).all()
+        assert len(newton.newton) <= 4
+        counts.append(len(history))
+    assert np.diff(np.log2(counts)) == pytest.approx(2, abs=0.4)
+
+
+def test_steepest_descent_leaves_a_saddle():
+    """The straight strut above lam_1 is a saddle: Newton's method stays, steepest descent from beside it leaves."""
+    strut = rl.Strut(n=4)
+    beside = 1e-3 * strut.joints.s
+    assert rl.equilibrium(strut, 5.0, beside).index == 1
+    p, _ = rl.steepest_descent(strut, 5.0, beside)
+    assert p.index == 0
+    assert p.tip_angle > 2
+
+
+def test_steepest_descent_says_what_it_lacks_or_misses():
+    with pytest.raises(ValueError, match="TwoStruts has no measure 'energy'"):
+        rl.steepest_descent(TwoStruts(3), 1.0, np.ones(6))
+    with pytest.raises(rl.NoConvergence, match="has not arrived after 50 steps") as caught:
+        rl.steepest_descent(rl.Strut(n=30), 5.0, np.ones(30), limit=50)
+    assert len(caught.value.history) == 50
+
+
+# --- the error of a point -------------------------------------------------------------------------------------------
+
+
+@settings(max_examples=80)
+@given(struts(terms=False), st.floats(-60, 60), st.integers(0, 3))
+def test_the_error_of_a_point_holds_and_is_not_idle(strut, lam, bend):
+    """Against the exact solution of the same equations in 40 digits."""
+    try:
+        p = rl.equilibrium(strut, lam, bend * np.sin(np.pi * strut.joints.s / 2))
+    except rl.NoConvergence:
+        raise AssertionError("a strut of few joints was not solved") from None
+    if not p.index_verified:
+        return
+    off = abs(float(exact_tip(strut, p.u, lam) - p.tip_angle))
+    assert off <= p.error
+    condition = np.abs(np.linalg.inv(strut.hessian(p.u, lam).toarray())).max() * strut.joints.k.max() + 1
+    assert p.error <= 1e-13 * condition * max(1.0, abs(p.tip_angle)) * strut.n
+
+
+@pytest.mark.parametrize("n", [10**3, 10**4])
+def test_the_error_of_a_long_strut(n):
+    strut = rl.Strut(n=n)
+    p = rl.equilibrium(strut, 5.0, lambda s: 2 * np.sin(np.pi * s / 2))
+    assert abs(float(exact_tip(strut, p.u, 5.0) - p.tip_angle)) <= p.error <= 1e-13
+
+
+def test_a_point_answers_when_asked():
+    strut = rl.Strut(n=100, rule="trapezoid", phi0=0.1)
+    p = rl.equilibrium(strut, 5.0, guess=lambda s: 2 * s)
+    assert p.s.shape == p.phi.shape == p.x.shape == p.z.shape == (101,)
+    assert (p.phi[0], p.x[0], p.z[0]) == (0.1, 0, 0)
+    assert p.phi[-1] == p.tip_angle == p.u[-1]
+    assert p.z[-1] == pytest.approx(p.height, abs=1e-14)
+    assert p.energy == strut.energy(p.u, 5.0)
+    half = p([0.25, 0.255])
+    assert half.phi[0] == p.phi[25]
+    assert half.x[1] == pytest.approx((p.x[25] + p.x[26]) / 2)
+    assert (p.index, p.nullity, p.index_verified) == (0, 0, True)
+    assert p.error < 1e-13
+    with pytest.raises(ValueError, match="s must lie between 0 and 1"):
+        p(1.1)
+    assert repr(p).startswith("Point(lam=5, tip_angle=")
+
+
+def test_guesses_are_angles_or_functions_and_are_not_changed():
+    strut = rl.Strut(n=5)
+    guess = np.full(5, 0.3)
+    rl.equilibrium(strut, 5.0, guess)
+    assert (guess == 0.3).all()
+    with pytest.raises(ValueError, match=r"guess must have shape \(5,\)"):
+        rl.equilibrium(strut, 5.0, [0.0])
+    with pytest.raises(ValueError, match="lam must be a finite number; it is nan"):
+        rl.equilibrium(strut, np.nan)
+    with pytest.raises(ValueError, match="guess must be finite"):
+        rl.equilibrium(strut, 5.0, [np.nan] * 5)
