@@ -19,6 +19,9 @@ from rodlab.numerics.arrays import EPS, Array, number
 from rodlab.numerics.factor import factor, shifted
 
 
+IDLE = 20  # steps without a change of energy beyond rounding before giving up
+
+
 class DescentStep(NamedTuple):
     """One step down: energy and gradient norm where it began, and its length factor t."""
 
@@ -74,10 +77,10 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
     """A minimum of the energy by shifted Newton steps from u, finished by Newton's own method `run`."""
     V, mu, near = _energy(model), 0.0, 1e-2
     history: list[NewtonStep] = []
-    energy = V(u, lam)
+    energy, start, idle = V(u, lam), run.norm(u), 0
     for _ in range(1000):
         g, H = np.asarray(model.residual(u, lam)), model.jacobian(u, lam)
-        least = math.sqrt(EPS) * float(np.abs(np.diagonal(H) if isinstance(H, np.ndarray) else H.diagonal).max())
+        least = 16 * EPS * float(np.abs(np.diagonal(H) if isinstance(H, np.ndarray) else H.diagonal).max())
         while True:
             step, fall = _downward(H, g, mu)
             noise = 1e3 * EPS * abs(energy)
@@ -91,15 +94,22 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
         history.append(NewtonStep(size, run.norm(g), least / (least + mu)))
         u = u + step
         energy = V(u, lam)
-        if size <= near * run.norm(u) and _downward(model.jacobian(u, lam), g, 0.0)[0] is not None:
+        if size <= near * max(run.norm(u), start) and _downward(model.jacobian(u, lam), g, 0.0)[0] is not None:
             try:
                 root = run.solve(u)
             except NoConvergence:
                 near /= 100
             else:
                 return Solution(root.u, (*history, *root.history), root.remaining)
-        if gain >= fall / 2:
+        if gain >= fall / 2 or fall <= noise:
             mu = mu / 8 if mu > least else 0.0
+        idle = idle + 1 if abs(gain) <= noise else 0
+        if idle == IDLE:
+            raise NoConvergence(
+                f"neither Newton's method nor {len(history)} steps down the energy arrive: rounding hides the way at a"
+                f" residual of {history[-1].residual:.2g}",
+                tuple(history),
+            )
     raise NoConvergence("1000 steps down the energy did not arrive at a minimum", tuple(history))
 
 

@@ -102,6 +102,8 @@ class Newton:
             if not size < last or step is None:
                 if last <= FLOOR * max(self.norm(u), start):  # rounding: steps can shrink no more
                     return self._solution(u, u - before[0], last * max(1.0, contraction / (1 - contraction)))
+                if last < math.inf and self._is_rounding(*before):  # ill-conditioned: the error says how far
+                    return self._solution(before[0], u - before[0], 2 * last)
                 return before
             after = self._residual(u + step)
             if after is None:
@@ -162,6 +164,10 @@ class Newton:
     def _step(self, u: Array, F: Array) -> Array | None:
         with np.errstate(all="ignore"):
             return _finite(solve(self.jacobian(u), -F))
+
+    def _is_rounding(self, u: Array, F: Array) -> bool:
+        """True when F is what rounding of u alone leaves: u solves equations a few eps away."""
+        return bool((np.abs(F) <= 8 * EPS * (abs(self.jacobian(u)) @ np.abs(u))).all())
 
     def _tell(self, size: float, F: Array, damping: float = 1.0) -> None:
         self.history.append(NewtonStep(size, self.norm(F), damping))

@@ -208,7 +208,7 @@ class Strut:
         m, f = link.moments(below, phi, lam, **given)
         size = np.abs(m) + 2 * self.joints.k * np.abs(phi - below)
         moments = np.abs(np.diff(v, prepend=0.0)) @ size
-        loads = np.abs(v) @ (np.abs(_full(f, self.n)) + np.abs(_balance(m, f, phi)))
+        loads = np.abs(v) @ (2 * np.abs(_full(f, self.n)) + np.abs(_balance(m, f, phi)))
         if link.places:
             N = link.forces(*self._places.of(phi), **given)
             loads += self.n * float(np.abs(v) @ self._places.size(*N))
@@ -270,13 +270,14 @@ class Strut:
 
 
 def _balance(m: Any, f: Any, like: Array) -> Array:
-    """m_i - m_{i+1} + f_i, shape (n,)."""
+    """m_i - m_{i+1} + f_i, shape (n,): the moments first, whose difference rounding hardly touches."""
     g = np.empty_like(like)
-    np.add(m, f, out=g)
+    g[:] = m
     if np.ndim(m):
         g[:-1] -= m[1:]
     else:
         g[:-1] -= m
+    g += f
     return g
 
 

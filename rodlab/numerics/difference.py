@@ -96,6 +96,9 @@ class DifferenceForm(Symmetric):
         """The dense matrix, shape (n, n)."""
         return self.summed.toarray()
 
+    def __abs__(self) -> Tridiagonal:
+        return abs(self.summed)
+
     def __matmul__(self, y: Array) -> Array:
         moment = self.springs.k * np.diff(y, prepend=0.0)
         out = moment - self.c * y

@@ -37,6 +37,9 @@ class Full(Symmetric):
         """The dense matrix, shape (n, n)."""
         return self._entries.copy()
 
+    def __abs__(self) -> "Full":
+        return Full(np.abs(self._entries))
+
     def __matmul__(self, x: Array) -> Array:
         return np.asarray(self._entries @ x)
 

@@ -50,6 +50,9 @@ class Tridiagonal(Symmetric):
         """The dense matrix, shape (n, n)."""
         return np.diag(self.diagonal) + np.diag(self.off_diagonal, 1) + np.diag(self.off_diagonal, -1)
 
+    def __abs__(self) -> "Tridiagonal":
+        return Tridiagonal(np.abs(self.diagonal), np.abs(self.off_diagonal))
+
     def __matmul__(self, x: Array) -> Array:
         y = self.diagonal * x
         y[:-1] += self.off_diagonal * x[1:]
