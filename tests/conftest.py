@@ -25,7 +25,7 @@ def struts(draw, most=8, terms=True):
     )
     return rl.Strut(
         n=n,
-        K=draw(st.sampled_from([1.0, "1 + s", lambda s: np.exp(s), "Piecewise((1, s < 1/3), (20, True))"])),
+        K=draw(st.sampled_from([1.0, "1 + s", np.exp, "Piecewise((1, s < 1/3), (20, True))"])),
         u_hat=draw(st.sampled_from([0.0, 0.7, "sin(5*s)", lambda s: 1 - s])),
         rule=draw(st.sampled_from(["end", "trapezoid"])),
         phi0=draw(st.sampled_from([0.0, 0.4])),

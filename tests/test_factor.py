@@ -49,8 +49,8 @@ def test_a_matrix_that_is_not_symmetric_has_no_index():
 def test_sparse_inertia_of_a_grid_matches_lapack():
     n = 12
     line = diags_array([np.full(n, 2.0), np.full(n - 1, -1.0), np.full(n - 1, -1.0)], offsets=[0, 1, -1])
-    I = np.eye(n)
-    A = csr_array(np.kron(line.toarray(), I) + np.kron(I, line.toarray()) - 3.03 * np.eye(n * n))
+    one = np.eye(n)
+    A = csr_array(np.kron(line.toarray(), one) + np.kron(one, line.toarray()) - 3.03 * np.eye(n * n))
     w = np.linalg.eigvalsh(A.toarray())
     assert rl.factor(A).inertia() == ((w < 0).sum(), 0, (w > 0).sum())
 

@@ -23,7 +23,8 @@ def all_equilibria_of_two_joints(strut, lam):
 
     grid = np.linspace(-2 * lam - 0.1, 2 * lam + 0.1, 200_001)
     values = end(grid)
-    roots = [brentq(end, a, b, xtol=1e-15) for a, b in zip(grid, grid[1:], strict=False) if end(a) * end(b) < 0]
+    signs = np.flatnonzero(values[1:] * values[:-1] < 0)
+    roots = [brentq(end, grid[i], grid[i + 1], xtol=1e-15) for i in signs]
     assert np.count_nonzero(values == 0) <= 1
     roots += list(grid[values == 0])
     return [rl.equilibrium(strut, lam, [a, second(a)]) for a in sorted(roots)]

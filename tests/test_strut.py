@@ -1,5 +1,7 @@
 """The strut against itself, derivative by derivative, and against SymPy."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import sympy
@@ -109,8 +111,7 @@ def test_from_joints_says_everything_itself():
 
 
 def test_the_shipped_kernels_are_those_derived():
-    with open(standard.__file__) as file:
-        assert file.read() == derive.standard_source()
+    assert Path(standard.__file__).read_text() == derive.standard_source()
 
 
 def test_what_is_absent_does_not_occur_in_the_kernel():

@@ -13,13 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rodlab.analysis.equations import Equations, started
-from rodlab.analysis.newton import Newton, NewtonStep, NoConvergence, Solution
+from rodlab.analysis.newton import FLOOR, Newton, NewtonStep, NoConvergence, Solution
 from rodlab.analysis.point import Point
 from rodlab.numerics.arrays import EPS, Array, number
 from rodlab.numerics.factor import factor, shifted
 
-
-IDLE = 20  # steps without a change of energy beyond rounding before giving up
+IDLE = 20  # steps that change neither energy nor angles beyond rounding before giving up
 
 
 class DescentStep(NamedTuple):
@@ -94,7 +93,8 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
         history.append(NewtonStep(size, run.norm(g), least / (least + mu)))
         u = u + step
         energy = V(u, lam)
-        if size <= near * max(run.norm(u), start) and _downward(model.jacobian(u, lam), g, 0.0)[0] is not None:
+        scale = max(run.norm(u), start)
+        if size <= near * scale and _downward(model.jacobian(u, lam), g, 0.0)[0] is not None:
             try:
                 root = run.solve(u)
             except NoConvergence:
@@ -103,7 +103,7 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
                 return Solution(root.u, (*history, *root.history), root.remaining)
         if gain >= fall / 2 or fall <= noise:
             mu = mu / 8 if mu > least else 0.0
-        idle = idle + 1 if abs(gain) <= noise else 0
+        idle = idle + 1 if abs(gain) <= noise or size <= FLOOR * scale else 0
         if idle == IDLE:
             raise NoConvergence(
                 f"neither Newton's method nor {len(history)} steps down the energy arrive: rounding hides the way at a"

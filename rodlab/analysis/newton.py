@@ -105,15 +105,16 @@ class Newton:
                 if last < math.inf and self._is_rounding(*before):  # ill-conditioned: the error says how far
                     return self._solution(before[0], u - before[0], 2 * last)
                 return before
-            after = self._residual(u + step)
+            beyond = u + step
+            after = self._residual(beyond)
             if after is None:
                 return u, F
             previous, contraction = contraction, size / last if last < math.inf else math.inf
             left = _remaining(size, contraction, previous)
             if left <= floor:
-                return self._solution(u + step, step, left)
+                return self._solution(beyond, step, left)
             before, last = (u, F), size
-            u, F = u + step, after
+            u, F = beyond, after
         raise self._failure(f"after {self.limit} linear solves the last step was {self.history[-1].step:.2g}")
 
     def _damped(self, u: Array, F: Array) -> tuple[Array, Array]:

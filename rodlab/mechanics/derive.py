@@ -145,7 +145,7 @@ class KernelPrinter(NumPyPrinter):  # type: ignore[misc]
 
     def _print_Add(self, expr: Expr, order: str | None = None) -> str:
         terms = sorted(self._as_ordered_terms(expr, order=order), key=lambda term: term.could_extract_minus_sign())
-        return super()._print_Add(sympy.Add(*terms, evaluate=False), order="none")
+        return str(super()._print_Add(sympy.Add(*terms, evaluate=False), order="none"))
 
 
 def _method(name: str, arguments: str, results: tuple[Expr, ...]) -> str:

@@ -21,7 +21,7 @@ import numpy as np
 
 from rodlab.numerics.arrays import EPS, Array, is_finite, vector
 from rodlab.numerics.inertia import Inertia, Symmetric
-from rodlab.numerics.tridiagonal import Tridiagonal, TridiagonalFactor, count_below_zero
+from rodlab.numerics.tridiagonal import Tridiagonal, TridiagonalFactor, count_below_zero, count_overwriting
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +41,11 @@ class Springs:
         d = self.k.copy()
         d[:-1] += self.k[1:]
         return d
+
+    @cached_property
+    def bounds(self) -> tuple[Array, Array]:
+        """The diagonal lowered and raised by what rounding of the sums and of Sturm's sequence can do."""
+        return (1 - 8 * EPS) * self.diagonal, (1 + 8 * EPS) * self.diagonal
 
     @cached_property
     def off_diagonal(self) -> Array:
@@ -124,11 +129,20 @@ class DifferenceForm(Symmetric):
 
         The entries decide first, at half the price; what they leave unclear the mixed form may still decide.
         """
+        n = self.c.size
         spread = np.abs(self.c)
         spread *= 4 * EPS
         spread += slack
-        quick = self.summed.inertia(spread + (2 * EPS) * self.springs.diagonal)
-        return quick if quick.verified else self._mixed_inertia(spread)
+        low, high = self.springs.bounds
+        d, e = low - self.c, self.springs.off_diagonal.copy()
+        d -= spread
+        most = least = count_overwriting(d, e, closed=True)
+        if most:  # the same two arrays again: fresh ones of this size cost as much as the count
+            np.subtract(high, self.c, out=d)
+            d += spread
+            e[:] = self.springs.off_diagonal
+            least = count_overwriting(d, e, closed=False)
+        return Inertia(least, 0, n - least) if least == most else self._mixed_inertia(spread)
 
     def _mixed(self, spread: Array | float = 0.0, side: int = 0) -> Tridiagonal:
         """The mixed form, divided by a factor that gives compliances and c one size; c moved by side * spread."""

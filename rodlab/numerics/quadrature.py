@@ -1,10 +1,12 @@
 """Integrals of a function over many intervals at once, each to full relative accuracy.
 
-Gauss-Legendre with 8 points against 16: where they agree to rounding the interval is done, where not it is halved. Smooth
-integrands never halve; a jump nobody declared costs fifty halvings of the one interval that holds it.
+Clenshaw and Curtis's rule with 17 points against its own 9: where they agree to rounding the interval is done, where not it is
+halved. Smooth integrands hardly ever halve. The ends of an interval belong to the rule, a hair inside it, so that
+a jump nobody declared cannot hide between an end and the first node: it costs fifty halvings of the interval that holds it.
 """
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 
@@ -12,16 +14,22 @@ from rodlab.numerics.arrays import EPS, Array
 
 DEPTH = 60
 CHUNK = 1 << 15  # intervals at once: bounds the memory, and keeps it in the cache
+INSIDE = 1e-13  # how far inside the ends are taken, relative to the interval
 
 
-def gauss(points: int) -> tuple[Array, Array]:
-    """Gauss-Legendre nodes and weights on [0, 1].
+@cache
+def clenshaw_curtis(n: int) -> tuple[Array, Array]:
+    """n + 1 nodes and weights on [0, 1], n even, the ends among the nodes; every second node is that of n / 2.
 
-    >>> x, w = gauss(2); bool(abs(w @ x**3 - 1/4) < 1e-15)
+    >>> x, w = clenshaw_curtis(8); bool(abs(w @ x**7 - 1/8) < 1e-15)
     True
     """
-    x, w = np.polynomial.legendre.leggauss(points)
-    return (x + 1) / 2, w / 2
+    angle = np.pi * np.arange(n + 1) / n
+    j = np.arange(1, n // 2 + 1)
+    b = np.where(j == n // 2, 1.0, 2.0) / (4 * j**2 - 1)
+    w = (1 - np.cos(2 * np.outer(angle, j)) @ b) / n
+    w[[0, -1]] /= 2
+    return (1 - np.cos(angle)) / 2, w
 
 
 def integrals(f: Callable[[Array], Array], edges: Array) -> Array:
@@ -35,13 +43,14 @@ def integrals(f: Callable[[Array], Array], edges: Array) -> Array:
     if edges.size - 1 > CHUNK:
         starts = range(0, edges.size - 1, CHUNK)
         return np.concatenate([integrals(f, edges[i : i + CHUNK + 1]) for i in starts])
-    total = np.zeros(edges.size - 1)
+    total, size = np.zeros(edges.size - 1), np.zeros(edges.size - 1)
     left, right, home = edges[:-1], edges[1:], np.arange(edges.size - 1)
     for _ in range(DEPTH):
-        coarse, _ = _rule(f, left, right, 8)
-        fine, size = _rule(f, left, right, 16)
-        whole = total + np.bincount(home, np.abs(fine), total.size)
-        done = (np.abs(fine - coarse) <= 16 * EPS * size) | (np.abs(fine - coarse) <= EPS / 4 * whole[home])
+        fine, coarse, absolute = _rules(f, left, right)
+        if not size.any():
+            size = absolute
+        off = np.abs(fine - coarse)
+        done = (off <= 16 * EPS * absolute) | (off <= EPS / 4 * size[home]) | (right - left <= 4 * EPS * np.abs(right))
         total += np.bincount(home[done], fine[done], total.size)
         if done.all():
             return total
@@ -53,9 +62,11 @@ def integrals(f: Callable[[Array], Array], edges: Array) -> Array:
     raise ValueError(f"the function could not be integrated to rounding near s = {float(left[0]):.6g}")
 
 
-def _rule(f: Callable[[Array], Array], left: Array, right: Array, points: int) -> tuple[Array, Array]:
-    """The Gauss sums over all intervals, and the same sums of |f|."""
-    x, w = gauss(points)
+def _rules(f: Callable[[Array], Array], left: Array, right: Array) -> tuple[Array, Array, Array]:
+    """The sums of 17 and of 9 points over all intervals, and that of |f|."""
+    x, w = clenshaw_curtis(16)
     h = right - left
-    values = f(left[:, None] + h[:, None] * x)
-    return h * (values @ w), h * (np.abs(values) @ w)
+    inside = np.maximum(INSIDE * h, 2 * np.spacing(np.maximum(np.abs(left), np.abs(right))))
+    s = np.clip(left[:, None] + h[:, None] * x, (left + inside)[:, None], (right - inside)[:, None])
+    values = f(s)
+    return h * (values @ w), h * (values[:, ::2] @ clenshaw_curtis(8)[1]), h * (np.abs(values) @ w)

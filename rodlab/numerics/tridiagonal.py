@@ -88,8 +88,8 @@ class Tridiagonal(Symmetric):
         rounding *= 4 * EPS
         spread[:-1] += rounding
         spread[1:] += rounding
-        most = _count_finite(self.diagonal - spread, self.off_diagonal, closed=True)
-        least = most and _count_finite(self.diagonal + spread, self.off_diagonal, closed=False)
+        most = count_overwriting(self.diagonal - spread, self.off_diagonal.copy(), closed=True)
+        least = most and count_overwriting(self.diagonal + spread, self.off_diagonal.copy(), closed=False)
         return Inertia(least, most - least, self.diagonal.size - most)
 
 
@@ -133,17 +133,17 @@ def count_below_zero(diagonal: Array, off_diagonal: Array, *, closed: bool) -> i
     >>> count_below_zero(np.array([1.0, 0.0, 3.0]), np.zeros(2), closed=True)
     1
     """
-    return _count_finite(diagonal.copy(), off_diagonal, closed=closed)
+    return count_overwriting(diagonal.copy(), off_diagonal.copy(), closed=closed)
 
 
-def _count_finite(d: Array, off_diagonal: Array, *, closed: bool) -> int:
-    """The same, overwriting `d`."""
+def count_overwriting(d: Array, e: Array, *, closed: bool) -> int:
+    """The same count, overwriting the diagonal `d` and the off-diagonal `e`."""
     if not is_finite(d):
         raise ValueError("diagonal must be finite; an entry overflowed")
     n, below = d.size, int(np.count_nonzero(d < 0))
     if 2 * below > n:  # count the fewer: -T has the positive ones of T
-        return n - _count(np.negative(d, out=d), off_diagonal.copy(), n - below, closed=not closed)
-    return _count(d, off_diagonal.copy(), below, closed=closed)
+        return n - _count(np.negative(d, out=d), e, n - below, closed=not closed)
+    return _count(d, e, below, closed=closed)
 
 
 def _count(d: Array, e: Array, guess: int, *, closed: bool) -> int:
