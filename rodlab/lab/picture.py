@@ -39,7 +39,8 @@ def loads_picture(loads: Sequence[Load], limits: Sequence[Extrapolated]) -> Figu
         for mode, grey in zip(modes, GREYS, strict=False):
             line = [entry for entry in own if entry.mode == mode]
             errors = [entry.error / entry.limit for entry in line]
-            axes.loglog(sizes, errors, marker=MARKS[rule], color=grey, ms=4, lw=1.2, label=f"mode {mode}")
+            mark = {"marker": MARKS[rule], "ms": 1 + 2.6 * mode, "mfc": grey if mode == 1 else "w", "zorder": 5 - mode / 10}
+            axes.loglog(sizes, errors, color=grey, lw=1.2, label=f"mode {mode}", **mark)
             best = next(limit for limit in limits if limit.rule == rule and limit.mode == mode)
             axes.loglog(sizes[-1], max(best.error / best.limit, 1e-16), marker="*", color=grey, ms=9, ls="none", mec="k", mew=0.4)
         _slope(axes, sizes, [entry.error / entry.limit for entry in own if entry.mode == modes[0]], ORDER[rule])
