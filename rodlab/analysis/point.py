@@ -102,11 +102,13 @@ class Point:
         """Signs of the eigenvalues of the second variation; None where there is none (no symmetric Jacobian)."""
         second = getattr(self.equations, "second_variation", self.equations.jacobian)
         matrix = second(self.u, self.lam)
-        bound = getattr(self.equations, "curvature_bound", None)
-        if bound is None or not hasattr(matrix, "inertia"):
+        if not hasattr(matrix, "inertia"):
             return factor(matrix).inertia()
-        slack = bound(self.lam) * 2 * self.remaining_angle
-        known: Inertia = matrix.inertia(slack if np.isfinite(slack) else 0.0)
+        bound = getattr(self.equations, "curvature_bound", None)
+        change = np.inf if bound is None else bound(self.lam)
+        if not np.isfinite(change):  # unknown: its own size stands for how fast the matrix can change
+            change = float(np.abs(matrix.diagonal).max())
+        known: Inertia = matrix.inertia(2 * self.remaining_angle * change)
         return known
 
     @property

@@ -75,7 +75,7 @@ def by_rule(n: Any, K: Any, u_hat: Any, rule: str, phi0: Any, breaks: Sequence[A
     n = whole("n", n, least=1)
     if rule not in RULES:
         raise ValueError(f"rule must be one of {', '.join(map(repr, RULES))}; it is {rule!r}")
-    at = tuple(number("a break", b) for b in breaks)
+    at = tuple(float(b) for b in vector("breaks", np.atleast_1d(np.asarray(breaks))))
     if any(not 0 < b < 1 for b in at):
         raise ValueError(f"breaks must lie between 0 and 1; they are {breaks!r}")
     stiffness = Profile("K", K, at)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rodlab.mechanics import joints as joints_of
+from rodlab.mechanics.assembly import balance, difference_form, full
 from rodlab.mechanics.joints import Joints
 from rodlab.mechanics.kernels import Kernel, kernel
 from rodlab.mechanics.places import Places
@@ -56,7 +57,7 @@ class Strut:
         terms: Sequence[Term] = (),
         ends: tuple[str, str] = ("clamped", "free"),
     ) -> None:
-        if tuple(ends) != ("clamped", "free"):
+        if not isinstance(ends, (tuple, list)) or tuple(ends) != ("clamped", "free"):
             raise ValueError(f"ends must be ('clamped', 'free'); they are {ends!r}")
         self._said = f"n={n!r}, K={K!r}, u_hat={u_hat!r}, rule={rule!r}" + (f", phi0={phi0!r}" if phi0 else "")
         self._build(joints_of.by_rule(n, K, u_hat, rule, phi0, breaks), terms, breaks)
@@ -127,7 +128,7 @@ class Strut:
         link = self.kernel(lam)
         given = self._given(link)
         m, f = link.moments(self._below(phi), phi, lam, **given)
-        g = _balance(m, f, phi)
+        g = balance(m, f, phi)
         if link.places:
             g += self._places.moments(phi, *link.forces(*self._places.of(phi), **given))
         return g
@@ -138,12 +139,12 @@ class Strut:
         link = self.kernel(lam)
         given = self._given(link)
         k, c_above, c_below = link.stiffness(self._below(phi), phi, lam, **given)
-        c = _full(c_above, self.n)
+        c = full(c_above, self.n)
         if np.ndim(c_below) or c_below:
-            c[:-1] += _full(c_below, self.n)[1:]
+            c[:-1] += full(c_below, self.n)[1:]
         if link.places:
             c += self._places.softening(phi, *link.forces(*self._places.of(phi), **given))
-        local = _difference_form(self.springs if k is self.joints.k else _full(k, self.n), c)
+        local = difference_form(self.springs if k is self.joints.k else full(k, self.n), c)
         if not link.hardens:
             return local
         if self.n > FULL_LIMIT:
@@ -156,7 +157,7 @@ class Strut:
         phi, lam = self._state(phi, lam)
         link = self.kernel()
         m, f = link.moments_lam(self._below(phi), phi, lam, **self._given(link))
-        return _balance(m, f, phi)
+        return balance(m, f, phi)
 
     # --- the equations F(u, lam) = 0 that a solver sees -------------------------------------------------------
 
@@ -208,7 +209,7 @@ class Strut:
         m, f = link.moments(below, phi, lam, **given)
         size = np.abs(m) + 2 * self.joints.k * np.abs(phi - below)
         moments = np.abs(np.diff(v, prepend=0.0)) @ size
-        loads = np.abs(v) @ (2 * np.abs(_full(f, self.n)) + np.abs(_balance(m, f, phi)))
+        loads = np.abs(v) @ (2 * np.abs(full(f, self.n)) + np.abs(balance(m, f, phi)))
         if link.places:
             N = link.forces(*self._places.of(phi), **given)
             loads += self.n * float(np.abs(v) @ self._places.size(*N))
@@ -269,36 +270,8 @@ class Strut:
         return {name: self._parameters[name] for name in link.parameters}
 
 
-def _balance(m: Any, f: Any, like: Array) -> Array:
-    """m_i - m_{i+1} + f_i, shape (n,): the moments first, whose difference rounding hardly touches."""
-    g = np.empty_like(like)
-    g[:] = m
-    if np.ndim(m):
-        g[:-1] -= m[1:]
-    else:
-        g[:-1] -= m
-    g += f
-    return g
-
-
-def _full(value: Any, n: int) -> Array:
-    """The value as an array (n,) of its own."""
-    return np.full(n, value) if np.ndim(value) == 0 else value
-
-
-def _difference_form(springs: Springs | Array, c: Array) -> DifferenceForm | Tridiagonal:
-    """By its factors where the coupling is that of springs, else by its entries."""
-    if isinstance(springs, Springs):
-        return DifferenceForm(springs, c)
-    if springs.min() > 0:
-        return DifferenceForm(Springs(springs), c)
-    diagonal = springs - c
-    diagonal[:-1] += springs[1:]
-    return Tridiagonal(diagonal, -springs[1:])
-
-
 def _checked_terms(terms: Any) -> tuple[Term, ...]:
-    given: tuple[Any, ...] = (terms,) if isinstance(terms, Term) else tuple(terms)
+    given: tuple[Any, ...] = tuple(terms) if isinstance(terms, (tuple, list)) else (terms,)
     taken: dict[str, str] = dict.fromkeys(("a", "b", "x", "z", "lam", "k", "beta", "h", "w"), "the strut")
     for term in given:
         if not isinstance(term, Term):
