@@ -9,6 +9,8 @@
 Names are imported when they are first used: `import rodlab` brings in no other package.
 """
 
+from rodlab.version import __version__ as __version__
+
 TYPE_CHECKING = False  # what type checkers take for true; importing typing would double the time
 if TYPE_CHECKING:
     from rodlab.analysis.downhill import steepest_descent
@@ -23,8 +25,6 @@ if TYPE_CHECKING:
     from rodlab.numerics.bordered import Bordered
     from rodlab.numerics.factor import factor
     from rodlab.numerics.tridiagonal import Tridiagonal
-
-__version__ = "0.1.0"
 
 _HOME = {
     "Bordered": "numerics.bordered",

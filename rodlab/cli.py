@@ -9,7 +9,7 @@ import argparse
 import sys
 import time
 
-from rodlab import __version__
+from rodlab.version import __version__
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:

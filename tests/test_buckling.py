@@ -151,6 +151,27 @@ def test_heavy_columns_against_high_precision():
         assert (b.error < 1e-9).all()
 
 
+def pressing(link):
+    return -link.lam * link.h * link.b**2
+
+
+def test_a_term_that_takes_part_in_the_load_is_refused():
+    with pytest.raises(ValueError, match="a term of the strut takes part in the load"):
+        rl.buckling(rl.Strut(n=10, terms=(rl.term(pressing),)), 1)
+
+
+def test_springs_at_the_ends_of_the_floats():
+    """Scaled before bisection squares them; what spans more than 140 decades is refused."""
+    for size in (1e-300, 1e-200, 1e200, 1e300):
+        assert rl.buckling_loads(rl.Strut.from_joints(k=[size, size]), 2) == pytest.approx(
+            [size * (3 - np.sqrt(5)) / 2, size * (3 + np.sqrt(5)) / 2], rel=1e-14
+        )
+    with pytest.raises(ValueError, match="must not span more than 70 decades"):
+        rl.buckling_loads(rl.Strut.from_joints(k=[1e-100, 1e100]), 2)
+    mode = rl.buckling(rl.Strut.from_joints(k=[1e60, 1e-60]), 2).modes
+    assert np.isfinite(mode).all()
+
+
 @pytest.mark.parametrize(
     ("arguments", "modes", "says"),
     [

@@ -120,3 +120,4 @@ def test_exponentially_small_eigenvalues_are_said_to_be_unknown():
         guess, lam = p.u, min(1.05 * lam, lam + own)
     assert lam > 10 * own
     assert {index for index, verified in seen if verified} == {1}
+    assert seen[-1][1] is False or p is None

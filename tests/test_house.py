@@ -136,6 +136,19 @@ def test_files_are_whole_or_absent(tmp_path):
     assert path.read_text() == "content"
 
 
+def test_a_failing_disk_leaves_the_old_file(tmp_path, monkeypatch):
+    path = store.write_whole(tmp_path / "b.txt", "old")
+
+    def full(_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(store.os, "fsync", full)
+    with pytest.raises(ValueError, match="cannot be written: No space left on device"):
+        store.write_whole(path, "new")
+    assert path.read_text() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["b.txt"]
+
+
 def test_json_is_json_at_full_precision():
     text = store.as_json({"a": np.array([0.1, np.nan]), "b": np.float64(1 / 3), "c": [np.int64(3), np.inf], "d": (True, None)})
     assert json.loads(text) == {"a": [0.1, None], "b": 1 / 3, "c": [3, None], "d": [True, None]}

@@ -64,8 +64,9 @@ def test_newton_at_the_pitchfork_contracts_by_two_thirds():
     p = rl.equilibrium(ONE, 1.0, [1.0])
     steps = np.array([entry.step for entry in p.newton])
     assert steps[10:20] / steps[9:19] == pytest.approx(2 / 3, abs=1e-3)
-    assert abs(p.tip_angle) <= p.error < 1e-5
+    assert abs(p.tip_angle) < 1e-6
     assert not p.index_verified
+    assert p.error == np.inf  # the Jacobian may be singular: no error is known, and none is pretended
 
 
 # --- two joints ---------------------------------------------------------------------------------------------------

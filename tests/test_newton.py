@@ -99,6 +99,77 @@ def test_no_root_is_said_with_the_history():
     assert caught.value.history[0].residual == 10
 
 
+class Parabola:
+    """(u - 1)^2 + gap = 0: no root for gap > 0, a double one for gap = 0."""
+
+    def __init__(self, gap):
+        self.gap = gap
+
+    def residual(self, u, lam):
+        return (u - 1) ** 2 + self.gap
+
+    def jacobian(self, u, lam):
+        return np.diag(2 * (u - 1))
+
+    def d_lam(self, u, lam):
+        return np.zeros_like(u)
+
+    def inner(self, u, v):
+        return u @ v
+
+
+@pytest.mark.parametrize("gap", [1e-20, 1e-17, 1e-15, 1e-13, 1e-8, 1.0])
+def test_just_beyond_a_fold_there_is_no_root(gap):
+    """Steps get as small as sqrt(gap) and stop there: that is no convergence, or not a verified index."""
+    for guess in (1.5, 2.0, -3.0):
+        try:
+            p = rl.equilibrium(Parabola(gap), 0.0, [guess])
+        except rl.NoConvergence:
+            continue
+        assert not p.index_verified
+        assert p.error == np.inf
+
+
+@pytest.mark.parametrize("relative", [1e-15, 1e-12, 1e-9])
+@pytest.mark.parametrize("terms", [(), (rl.self_weight(0.0),)])
+def test_one_joint_just_below_its_fold(terms, relative):
+    """beta = 0.1: the fold is at phi - tan(phi) = beta, lam = 1 / cos(phi); below it the root is not there."""
+    from scipy.optimize import brentq
+
+    phi = brentq(lambda x: x - np.tan(x) - 0.1, -1.4, -0.1, xtol=1e-15)
+    lam = (1 - relative) / np.cos(phi)
+    strut = rl.Strut.from_joints(k=[1.0], beta=[0.1], terms=terms)
+    for guess in phi + np.linspace(-1e-3, 1e-3, 7):
+        try:
+            p = rl.equilibrium(strut, lam, [guess])
+        except rl.NoConvergence:
+            continue
+        assert p.tip_angle > 0 or not p.index_verified  # downhill to the other branch, or here and said to be unknown
+
+
+class WithEnergy(TwoStruts):
+    """The same with its energy: then a way downhill exists, for every kind of matrix."""
+
+    @property
+    def measures(self):
+        return {"energy": lambda u, lam: sum(self.one.energy(half, lam) for half in np.split(u, 2))}
+
+
+@pytest.mark.parametrize("sparse", [False, True])
+def test_downhill_takes_every_kind_of_matrix(sparse):
+    model, rng = WithEnergy(3, sparse), np.random.default_rng(0)
+    for _ in range(20):
+        p = rl.equilibrium(model, 30.0, rng.uniform(-3, 3, 6))
+        assert np.abs(model.residual(p.u, 30.0)).max() < 1e-11
+
+
+def test_the_limit_is_a_number_of_solves():
+    with pytest.raises(rl.NoConvergence):
+        rl.equilibrium(Parabola(1.0), 0.0, [3.0], limit=5)
+    with pytest.raises(ValueError, match="limit must be a whole number, at least 1; it is 0"):
+        rl.equilibrium(Parabola(1.0), 0.0, [3.0], limit=0)
+
+
 def test_a_residual_that_is_not_finite_at_first_is_said():
     run = rl.Newton(np.log, lambda u: np.diag(1 / u), lambda v: float(np.abs(v).max()))
     with pytest.raises(rl.NoConvergence, match="not finite"):

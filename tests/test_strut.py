@@ -133,7 +133,7 @@ def test_the_symbolic_strut_is_the_numeric_one(state):
     d = strut.derivation(strut.n)
     values = {d.lam: lam, **dict(zip(d.phi, phi, strict=True))}
     numbers = {"phi_0": strut.joints.phi0, "h": strut.joints.h}
-    for name, given_value in strut._parameters.items():
+    for name, given_value in strut.parameters.items():
         for i, x in enumerate(np.broadcast_to(given_value, strut.n), start=1):
             numbers[f"{name}_{i}"] = x
     free = d.energy.free_symbols | d.gradient.free_symbols | d.hessian.free_symbols
@@ -320,9 +320,31 @@ def stranger(link):
     ],
 )
 def test_terms_that_the_strut_cannot_carry_are_refused(energy, says):
-    strut = rl.Strut(n=3, terms=(rl.term(energy, p=1.0),))
     with pytest.raises(ValueError, match=says):
-        strut.energy([0.0] * 3, 1.0)
+        rl.Strut(n=3, terms=(rl.term(energy, p=1.0),))
+
+
+def soft(link):
+    return -link.g * link.b**2 / 2
+
+
+def test_nothing_given_is_changed_and_nothing_changed_is_felt():
+    g, k, guess = np.full(4, 0.1), np.ones(4), np.full(4, 0.2)
+    strut = rl.Strut.from_joints(k=k, terms=(rl.term(soft, g=g), rl.self_weight(1.0)))
+    first = [strut.hessian(guess, 0.0).diagonal for _ in range(3)]
+    assert (first[0] == first[2]).all()
+    assert (g == 0.1).all()
+    k[0] = g[0] = 100.0
+    assert (strut.hessian(guess, 0.0).diagonal == first[0]).all()
+    assert strut.gradient(guess, 0.0)[0] < 10
+
+
+def test_names_that_the_kernel_uses_are_refused_and_a_lambda_is_taken():
+    for name in ("sin", "t0"):
+        with pytest.raises(ValueError, match=f"the parameter {name} of soft must have a name"):
+            rl.Strut(n=3, terms=(rl.term(soft, **{name: 1.0, "g": 1.0}),))
+    strut = rl.Strut(n=3, terms=(rl.term(lambda link: link.g * link.b, g=1.0),))
+    assert strut.gradient(np.zeros(3), 0.0) == pytest.approx([1, 1, 1])
 
 
 def test_a_term_must_be_a_function():

@@ -54,6 +54,15 @@ def test_the_two_ways_of_counting_agree(closed):
         assert count == count_below_zero(d, e, closed=closed) == (np.linalg.eigvalsh(Tridiagonal(d, e).toarray()) < 0).sum()
 
 
+@pytest.mark.parametrize("n", [500, 1000, 1001])
+def test_a_zero_diagonal_has_as_many_signs_of_either_kind(n):
+    """Every second pivot is zero, the next then huge: neither is taken for the scale of the rest."""
+    d, e = np.zeros(n), np.ones(n - 1)
+    assert count_below_zero(d, e, closed=False) == n // 2
+    assert count_below_zero(d, e, closed=True) == (n + 1) // 2
+    assert Tridiagonal(d, e).inertia() == (n // 2, n % 2, n // 2)
+
+
 def test_many_negative_pivots_are_counted_by_bisection_of_the_rest():
     n = 2000
     d, e = np.where(np.arange(n) % 2, 1.0, -1.0), np.full(n - 1, 0.25)

@@ -16,7 +16,7 @@ from rodlab.analysis.equations import Equations, started
 from rodlab.analysis.newton import FLOOR, Newton, NewtonStep, NoConvergence, Solution
 from rodlab.analysis.point import Point
 from rodlab.numerics.arrays import EPS, Array, number
-from rodlab.numerics.factor import factor, shifted
+from rodlab.numerics.factor import factor, largest_diagonal, shifted
 
 IDLE = 20  # steps that change neither energy nor angles beyond rounding before giving up
 
@@ -77,9 +77,9 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
     V, mu, near = _energy(model), 0.0, 1e-2
     history: list[NewtonStep] = []
     energy, start, idle = V(u, lam), run.norm(u), 0
-    for _ in range(1000):
+    for _ in range(10 * run.limit):
         g, H = np.asarray(model.residual(u, lam)), model.jacobian(u, lam)
-        least = 16 * EPS * float(np.abs(np.diagonal(H) if isinstance(H, np.ndarray) else H.diagonal).max())
+        least = 16 * EPS * largest_diagonal(H)
         while True:
             step, fall = _downward(H, g, mu)
             noise = 1e3 * EPS * abs(energy)
@@ -110,7 +110,7 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
                 f" residual of {history[-1].residual:.2g}",
                 tuple(history),
             )
-    raise NoConvergence("1000 steps down the energy did not arrive at a minimum", tuple(history))
+    raise NoConvergence(f"{10 * run.limit} steps down the energy did not arrive at a minimum", tuple(history))
 
 
 def has_energy(model: Equations) -> bool:

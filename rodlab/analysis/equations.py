@@ -4,7 +4,7 @@ Four methods suffice. What more a model knows it tells by further members, each 
 
     measures          name -> function of (u, lam)             a point answers for the model: tip_angle, height, energy
     second_variation  symmetric matrix at (u, lam)             index and nullity (else the Jacobian, where symmetric)
-    curvature_bound   bound on the change of the Jacobian      index of the exact solution, not of the computed one
+    lipschitz         bound on the change of the Jacobian      index of the exact solution, not of the computed one
     start             u from a guess, None for the natural one
     nodes, shape      s, phi and x, z of one shape
     rounding          bound on v . (computed residual - exact)  the error of a point

@@ -24,7 +24,10 @@ FLOOR = 1e-7  # relative step below which steps that stop shrinking are rounding
 
 
 class NewtonStep(NamedTuple):
-    """One linear solve: norm of the step, norm of the residual it started from, and the fraction of it taken."""
+    """One linear solve: norm of the step, norm of the residual it started from, and the damping.
+
+    Damping is the fraction of the step taken; for a shifted step downhill, how near its shift is to none: 1 / (1 + mu / mu_0).
+    """
 
     step: float
     residual: float
@@ -66,12 +69,12 @@ class Newton:
     @classmethod
     def at(cls, model: Equations, lam: float, limit: int = 100) -> "Newton":
         """Newton's method for the equations at a load, in their own length."""
-        return cls(
-            lambda u: np.asarray(model.residual(u, lam)),
-            lambda u: model.jacobian(u, lam),
-            lambda v: math.sqrt(model.inner(v, v)),
-            limit,
-        )
+
+        def norm(v: Array) -> float:
+            with np.errstate(over="ignore"):
+                return math.sqrt(model.inner(v, v))
+
+        return cls(lambda u: np.asarray(model.residual(u, lam)), lambda u: model.jacobian(u, lam), norm, limit)
 
     def solve(self, u: Array) -> Solution:
         """A root from the first iterate u; raises `NoConvergence` with its history."""
@@ -100,10 +103,10 @@ class Newton:
             if step is not None and size <= floor:
                 return self._solution(u + step, step, size)
             if not size < last or step is None:
-                if last <= FLOOR * max(self.norm(u), start):  # rounding: steps can shrink no more
-                    return self._solution(u, u - before[0], last * max(1.0, contraction / (1 - contraction)))
-                if last < math.inf and self._is_rounding(*before):  # ill-conditioned: the error says how far
-                    return self._solution(before[0], u - before[0], 2 * last)
+                if last < math.inf and self._is_rounding(*before):  # steps can shrink no more; the error says how far
+                    small = last <= FLOOR * max(self.norm(u), start)
+                    left = last * max(1.0, contraction / (1 - contraction)) if small else 2 * last
+                    return self._solution(u if small else before[0], u - before[0], left)
                 return before
             beyond = u + step
             after = self._residual(beyond)
@@ -167,8 +170,10 @@ class Newton:
             return _finite(solve(self.jacobian(u), -F))
 
     def _is_rounding(self, u: Array, F: Array) -> bool:
-        """True when F is what rounding of u alone leaves: u solves equations a few eps away."""
-        return bool((np.abs(F) <= 8 * EPS * (abs(self.jacobian(u)) @ np.abs(u))).all())
+        """True when F is no larger than what moving u by a few units of rounding, up and down in turn, does to it."""
+        sign = np.where(np.arange(u.size) % 2, 1.0, -1.0)
+        noise = [self._residual(u * (1 + side * 4 * EPS * sign)) for side in (1, -1)]
+        return all(moved is not None and self.norm(F) <= 16 * self.norm(moved - F) for moved in noise)
 
     def _tell(self, size: float, F: Array, damping: float = 1.0) -> None:
         self.history.append(NewtonStep(size, self.norm(F), damping))

@@ -9,8 +9,8 @@ import numpy as np
 from rodlab.analysis.equations import Equations
 from rodlab.analysis.newton import NewtonStep
 from rodlab.numerics.arrays import EPS, Array
-from rodlab.numerics.factor import factor, solve
-from rodlab.numerics.inertia import Inertia
+from rodlab.numerics.factor import factor, largest_change, shifted
+from rodlab.numerics.inertia import Inertia, Symmetric
 
 
 class Shape(NamedTuple):
@@ -24,7 +24,13 @@ class Shape(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Point:
-    """A solution u of F(u, lam) = 0. What its equations cannot answer raises `AttributeError` in one sentence."""
+    """A solution u of F(u, lam) = 0. What its equations cannot answer raises `AttributeError` in one sentence.
+
+    >>> from rodlab.mechanics.strut import Strut
+    >>> p = Point(Strut(n=2), 1.0, np.zeros(2))
+    >>> p.tip_angle, p.height, p.index, p.index_verified, p.x
+    (0.0, 1.0, 0, True, array([0., 0., 0.]))
+    """
 
     equations: Equations
     lam: float
@@ -102,14 +108,27 @@ class Point:
         """Signs of the eigenvalues of the second variation; None where there is none (no symmetric Jacobian)."""
         second = getattr(self.equations, "second_variation", self.equations.jacobian)
         matrix = second(self.u, self.lam)
-        if not hasattr(matrix, "inertia"):
-            return factor(matrix).inertia()
-        bound = getattr(self.equations, "curvature_bound", None)
+        bound = getattr(self.equations, "lipschitz", None)
         change = np.inf if bound is None else bound(self.lam)
-        if not np.isfinite(change):  # unknown: its own size stands for how fast the matrix can change
-            change = float(np.abs(matrix.diagonal).max())
-        known: Inertia = matrix.inertia(2 * self.remaining_angle * change)
-        return known
+        if not np.isfinite(change):
+            change = self._lipschitz_seen(second, matrix)
+        slack = 2 * self.remaining_angle * change
+        if hasattr(matrix, "inertia"):
+            structured: Inertia = matrix.inertia(slack)
+            return structured
+        known = factor(matrix).inertia()
+        if known is None or known.unclear or slack == 0:
+            return known
+        least, most = (factor(shifted(matrix, side * slack)).inertia() for side in (1, -1))
+        assert least is not None
+        assert most is not None
+        return Inertia(least.negative, most.negative + most.unclear - least.negative, most.positive)
+
+    def _lipschitz_seen(self, second: Any, matrix: Any) -> float:
+        """Change of the second variation a short way off, per unit of angle: where no bound is known, ten times that."""
+        step = max(1e-6, 2 * self.remaining_angle) * np.where(np.arange(self.u.size) % 3, 1.0, -1.0)
+        moved = [second(self.u + side * step, self.lam) for side in (1, -1)]
+        return 10 * max(largest_change(other, matrix) for other in moved) / float(np.abs(step).max())
 
     @property
     def index(self) -> int | None:
@@ -135,17 +154,18 @@ class Point:
 
     @cached_property
     def error(self) -> float:
-        """Bound on the error of the tip angle (the last unknown) against the exact solution of these equations.
+        """Estimate from above of the error of the tip angle (the last unknown), against the exact solution.
 
-        Sum of what Newton left, of rounding of u, and of rounding of the residual carried to the tip by the adjoint
-        v = J^{-T} e_n. Without the member `rounding` the last part is taken from eps |J| |u|. Infinite where J is
-        singular and the residual not exactly zero: no error is then known.
+        Sum of what Newton left, of rounding of u, and of the bound on rounding of the residual carried to the tip by
+        the adjoint v = J^{-T} e_n: of first order in these. Without the member `rounding` the last part is taken
+        from eps |J| |u|. Infinite where the index could not be verified, so that J may be singular and no error is
+        known, unless the residual is exactly zero.
         """
         unit = np.zeros_like(self.u)
         unit[-1] = 1.0
         J = self.equations.jacobian(self.u, self.lam)
         with np.errstate(all="ignore"):
-            v = solve(J, unit) if hasattr(J, "solve") else factor(J).solve_transposed(unit)
+            v = J.solve(unit) if isinstance(J, Symmetric) else factor(J).solve_transposed(unit)
             if not np.isfinite(v).all():
                 v = np.full_like(unit, np.finfo(float).max)
             own = getattr(self.equations, "rounding", None)
@@ -155,4 +175,5 @@ class Point:
                 rounding = float(
                     4 * EPS * np.abs(v) @ (abs(J) @ np.abs(self.u) + np.abs(self.equations.residual(self.u, self.lam)))
                 )
-        return self.remaining + EPS * abs(float(self.u[-1])) + (rounding if np.isfinite(rounding) else np.inf)
+        total = self.remaining + EPS * abs(float(self.u[-1])) + (rounding if np.isfinite(rounding) else np.inf)
+        return total if total == 0 or self.inertia is None or self.inertia.verified else np.inf

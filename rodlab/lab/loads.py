@@ -11,7 +11,6 @@ from rodlab.mechanics.joints import RULES
 from rodlab.mechanics.strut import Strut
 
 ORDER = {"end": 1, "trapezoid": 2}
-STAGE = {"end": 1, "trapezoid": 2}  # orders gained by each stage of Richardson's extrapolation
 
 
 @dataclass(frozen=True)
@@ -81,9 +80,10 @@ def extrapolate(loads: Sequence[Load]) -> Extrapolated:
     best, estimate = column[-1], math.inf
     while len(column) > 1:
         column = [b + (b - a) / (2**power - 1) for a, b in pairwise(column)]
+        rounding *= (2**power + 1) / (2**power - 1)  # as this stage can do with the rounding of the last
         change = abs(column[-1] - best) + rounding
         if change >= estimate:  # further stages only turn rounding over
             break
         best, estimate = column[-1], change
-        power += STAGE[rule]
+        power += ORDER[rule]
     return Extrapolated(rule, loads[0].mode, best, estimate, loads[0].limit)

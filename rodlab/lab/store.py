@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import rodlab
+from rodlab.version import __version__
 
 SCHEMA = 1
 
@@ -38,7 +38,7 @@ def write_whole(path: Path, content: bytes | str) -> Path:
 
 def framed(verb: str, seconds: float, content: Mapping[str, Any]) -> dict[str, Any]:
     """One object with what every verb says: schema, version, verb and run time."""
-    return {"schema": SCHEMA, "rodlab": rodlab.__version__, "verb": verb, "seconds": seconds, **content}
+    return {"schema": SCHEMA, "rodlab": __version__, "verb": verb, "seconds": seconds, **content}
 
 
 def as_json(answer: Mapping[str, Any]) -> str:

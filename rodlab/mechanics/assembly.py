@@ -27,15 +27,15 @@ def balance(m: Any, f: Any, like: Array) -> Array:
 
 def full(value: Any, n: int) -> Array:
     """The value as an array (n,) of its own."""
-    return np.full(n, value) if np.ndim(value) == 0 else value
+    return np.array(np.broadcast_to(value, n), dtype=np.float64)
 
 
-def difference_form(springs: Springs | Array, c: Array) -> DifferenceForm | Tridiagonal:
-    """By its factors where the coupling is that of springs, else by its entries."""
+def difference_form(springs: Springs | Array, c: Array, spread: float) -> DifferenceForm | Tridiagonal:
+    """By its factors where the coupling is that of springs, else by its entries; c is known to `spread`."""
     if isinstance(springs, Springs):
-        return DifferenceForm(springs, c)
+        return DifferenceForm(springs, c, spread)
     if springs.min() > 0:
-        return DifferenceForm(Springs(springs), c)
+        return DifferenceForm(Springs(springs), c, spread)
     diagonal = springs - c
     diagonal[:-1] += springs[1:]
     return Tridiagonal(diagonal, -springs[1:])

@@ -113,13 +113,16 @@ def mode_shape(strut: Strut, load: float) -> Array:
             phi /= np.abs(phi).max()
     else:
         phi = right_vector(*bidiagonal(strut), np.sqrt(load)) / np.sqrt(hw)
-    return np.asarray(phi / (np.sign(phi[0]) * np.abs(phi).max()))
+    first = phi[np.flatnonzero(phi)[0]]
+    return np.asarray(phi / (np.sign(first) * np.abs(phi).max()))
 
 
 def _loads_with_terms(strut: Strut, numbers: Sequence[int]) -> Iterator[tuple[float, float]]:
     """Loads bracketed by the index of the second variation at phi = 0, which rises by one at each."""
     hw = strut.joints.h * strut.joints.w
-    unloaded = strut.hessian(np.zeros(strut.n), 0.0)
+    unloaded, loaded = strut.hessian(np.zeros(strut.n), 0.0), strut.hessian(np.zeros(strut.n), 1.0)
+    if np.abs(unloaded.diagonal - loaded.diagonal - hw).max() > 1e-9 * (hw + np.abs(unloaded.diagonal)).max():
+        raise ValueError("a term of the strut takes part in the load; its buckling loads are not those of a load on the tip")
     if isinstance(unloaded, Full):
         scale = 1 / np.sqrt(hw)
         w = np.linalg.eigvalsh(scale[:, None] * unloaded.toarray() * scale)
@@ -130,8 +133,10 @@ def _loads_with_terms(strut: Strut, numbers: Sequence[int]) -> Iterator[tuple[fl
         raise ValueError("the terms of the strut turn its springs negative; it has no buckling loads to bracket")
     reach = float((np.abs(unloaded.diagonal).max() + 2 * strut.springs.k.max()) / hw.min())
 
+    zero = np.zeros(strut.n)
+
     def below(load: float) -> tuple[int, int]:
-        known = DifferenceForm(strut.springs, unloaded.c + load * hw).inertia((4 * EPS) * np.abs(unloaded.c).max())
+        known = strut.hessian(zero, load).inertia((4 * EPS) * np.abs(unloaded.c).max())
         return known.negative, known.negative + known.unclear
 
     for j in numbers:

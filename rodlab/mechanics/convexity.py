@@ -39,8 +39,8 @@ def uniqueness(strut: Strut, lam: float) -> Uniqueness:
     softest = abs(lam) * strut.joints.h * strut.joints.w
     for term in strut.terms:
         if term.name in HANGING and term.energy is None:
-            q = np.abs(strut._parameters["q"]) * strut.joints.h * strut.joints.w
-            softest = softest + strut._places.carried(q)
+            q = np.abs(strut.parameters["q"]) * strut.joints.h * strut.joints.w
+            softest = softest + strut.places.carried(q)
         elif not (term.name in LINEAR and term.energy is None):
             return Uniqueness(False, f"no bound is known for the term {term.name}")
     known = DifferenceForm(strut.springs, softest).inertia((8 * EPS) * softest)

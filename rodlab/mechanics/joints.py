@@ -90,13 +90,13 @@ def by_rule(n: Any, K: Any, u_hat: Any, rule: str, phi0: Any, breaks: Sequence[A
 
 def given(k: Any, beta: Any, h: Any, beta0: Any, weights: Any) -> Joints:
     """Joints given one by one, checked."""
-    k = vector("k", k)
+    k = vector("k", k).copy()
     if k.size == 0 or not k.min() > 0:
         raise ValueError(f"k must hold one positive spring constant a joint; it is {k}")
-    w = None if weights is None else vector("weights", weights, k.size)
+    w = None if weights is None else vector("weights", weights, k.size).copy()
     if w is not None and not w.min() > 0:
         raise ValueError(f"weights must be positive; entry {int(w.argmin())} is {w.min():g}")
     if w is not None and (w == 1).all():
         w = None
-    rest = np.zeros(k.size) if beta is None else vector("beta", beta, k.size)
+    rest = np.zeros(k.size) if beta is None else vector("beta", beta, k.size).copy()
     return Joints(k, rest, number("h", h, above=0.0), number("beta0", beta0), w)

@@ -37,13 +37,8 @@ class Profile:
         elif np.ndim(given) == 0:
             self.constant = number(name, given)
         else:
-            self.values = vector(name, given)
+            self.values = vector(name, given).copy()
         self.breaks = breaks
-
-    @property
-    def is_zero(self) -> bool:
-        """True for the number 0."""
-        return self.constant == 0.0
 
     def at(self, s: Array) -> Array:
         """Values at s, shape of s."""

@@ -7,6 +7,7 @@ Unknowns phi_1..phi_n, shape (n,), in radians. Positive phi turns clockwise: x' 
 Cost of every method: O(n), but for the Hessian with a term quadratic in the place (a foundation), which is full.
 """
 
+import re
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -91,11 +92,13 @@ class Strut:
         bend = BENDING_WITH_REST if joints.curved else BENDING
         self._loaded = (bend, END_LOAD, *self.terms)
         self._unloaded = (bend, *self.terms)
-        self._parameters: dict[str, Any] = {"k": joints.k, "beta": joints.beta, "h": joints.h, "w": joints.w}
+        self.parameters: dict[str, Any] = {"k": joints.k, "beta": joints.beta, "h": joints.h, "w": joints.w}
         for term in self.terms:
             for name, given in term.parameters.items():
                 profile = Profile(name, given, tuple(breaks))
-                self._parameters[name] = profile.at(joints.s) if profile.constant is None else profile.constant
+                self.parameters[name] = profile.at(joints.s) if profile.constant is None else profile.constant
+        if any(term.energy is not None for term in self.terms):
+            self.kernel()  # what a term of one's own lacks is said at once
 
     def __repr__(self) -> str:
         terms = f", terms={self.terms!r}" if self.terms else ""
@@ -113,44 +116,49 @@ class Strut:
         return kernel(self._loaded if lam else self._unloaded, weighted=self.joints.weights is not None)
 
     def energy(self, phi: Any, lam: float) -> Any:
-        """V(phi; lam): a float, or complex for complex angles."""
+        """V(phi; lam): a float, or complex for complex angles. `ValueError` unless phi (n,) and lam are finite."""
         phi, lam = self._state(phi, lam)
         link, below = self.kernel(lam), self._below(phi)
-        places = self._places.of(phi) if link.places else ()
+        places = self.places.of(phi) if link.places else ()
         e = link.energy(below, phi, *places, lam, **self._given(link))
         clamp = lam * self.joints.h * (1 - self.joints.last_weight) * np.cos(self.joints.phi0) if lam else 0.0
         V = np.sum(e) + clamp
         return complex(V) if np.iscomplexobj(V) else float(V)
 
     def gradient(self, phi: Any, lam: float) -> Array:
-        """dV/dphi, shape (n,): the balance of moments on each link."""
+        """dV/dphi, shape (n,): the balance of moments on each link. `ValueError` unless phi (n,) and lam are finite."""
         phi, lam = self._state(phi, lam)
         link = self.kernel(lam)
         given = self._given(link)
         m, f = link.moments(self._below(phi), phi, lam, **given)
         g = balance(m, f, phi)
         if link.places:
-            g += self._places.moments(phi, *link.forces(*self._places.of(phi), **given))
+            g += self.places.moments(phi, *link.forces(*self.places.of(phi), **given))
         return g
 
     def hessian(self, phi: Any, lam: float) -> DifferenceForm | Tridiagonal | Full:
-        """d2V/dphi2: `.diagonal`, `.off_diagonal`, `.toarray()`, `.index`, `.solve(b)`; symmetric, tridiagonal."""
+        """d2V/dphi2: `.diagonal`, `.off_diagonal`, `.toarray()`, `.index`, `.solve(b)`; symmetric.
+
+        Tridiagonal, but full with a term quadratic in the place (a foundation), which more than 4000 joints cannot have.
+        """
         phi, lam = self._state(phi, lam)
         link = self.kernel(lam)
         given = self._given(link)
         k, c_above, c_below = link.stiffness(self._below(phi), phi, lam, **given)
-        c = full(c_above, self.n)
+        c, spread = full(c_above, self.n), 0.0
         if np.ndim(c_below) or c_below:
             c[:-1] += full(c_below, self.n)[1:]
         if link.places:
-            c += self._places.softening(phi, *link.forces(*self._places.of(phi), **given))
-        local = difference_form(self.springs if k is self.joints.k else full(k, self.n), c)
+            forces = link.forces(*self.places.of(phi), **given)
+            c += self.places.softening(phi, *forces)
+            spread = 2 * self.n * EPS * float(self.places.size(*forces).max())  # of their cumulative sums
+        local = difference_form(self.springs if k is self.joints.k else full(k, self.n), c, spread)
         if not link.hardens:
             return local
         if self.n > FULL_LIMIT:
             raise ValueError(f"n must be at most {FULL_LIMIT} where a term couples all angles (a foundation); it is {self.n}")
-        x, z = self._places.of(phi)
-        return Full(local.toarray() + self._places.hardening(phi, *link.hardening(x, z, **given)))
+        x, z = self.places.of(phi)
+        return Full(local.toarray() + self.places.hardening(phi, *link.hardening(x, z, **given)))
 
     def d_lam(self, phi: Any, lam: float) -> Array:
         """d(gradient)/dlam, shape (n,)."""
@@ -194,9 +202,19 @@ class Strut:
             "energy": self.energy,
         }
 
-    def curvature_bound(self, lam: float) -> float:
-        """Bound on |d3V|: how fast an entry of the Hessian can change with its angle. Zero terms are not counted."""
-        return abs(lam) * self.joints.h * float(self.joints.w.max()) if not self.terms else np.inf
+    def lipschitz(self, lam: float) -> float:
+        """Bound on the change of the Hessian, in any entry, per unit of change of the angles; infinite if none is known.
+
+        Each entry of the load's Hessian is at most |lam| h w times a sine or cosine of one angle; that of a dead force
+        adds what is carried. A foundation, or a term of one's own, has no bound here.
+        """
+        bound = abs(lam) * self.joints.h * float(self.joints.w.max())
+        if any(term.energy is not None for term in self.terms) or self.kernel().hardens:
+            return np.inf
+        link, zero = self.kernel(), np.zeros(self.n)
+        if link.places:
+            bound += float(self.places.size(*link.forces(zero, zero, **self._given(link))).max())
+        return bound
 
     def rounding(self, phi: Array, lam: float, v: Array) -> float:
         """Bound on |v . (computed gradient - exact gradient)|: how far rounding moves a functional of the solution.
@@ -211,8 +229,8 @@ class Strut:
         moments = np.abs(np.diff(v, prepend=0.0)) @ size
         loads = np.abs(v) @ (2 * np.abs(full(f, self.n)) + np.abs(balance(m, f, phi)))
         if link.places:
-            N = link.forces(*self._places.of(phi), **given)
-            loads += self.n * float(np.abs(v) @ self._places.size(*N))
+            N = link.forces(*self.places.of(phi), **given)
+            loads += self.n * float(np.abs(v) @ self.places.size(*N))
         return float(4 * EPS * (moments + loads))
 
     # --- shape --------------------------------------------------------------------------------------------------
@@ -237,7 +255,7 @@ class Strut:
 
     def shape(self, phi: Any) -> tuple[Array, Array]:
         """x, z of the n + 1 joints from the clamp (0, 0) to the tip."""
-        x, z = self._places.of(vector("phi", phi, self.n))
+        x, z = self.places.of(vector("phi", phi, self.n))
         return np.append(0.0, x), np.append(0.0, z)
 
     def nodes(self, phi: Array) -> tuple[Array, Array]:
@@ -254,7 +272,7 @@ class Strut:
     # --- small parts ----------------------------------------------------------------------------------------------
 
     @cached_property
-    def _places(self) -> Places:
+    def places(self) -> Places:
         return Places(self.joints)
 
     def _state(self, phi: Any, lam: Any) -> tuple[Array, float]:
@@ -267,7 +285,7 @@ class Strut:
         return below
 
     def _given(self, link: Kernel) -> dict[str, Any]:
-        return {name: self._parameters[name] for name in link.parameters}
+        return {name: self.parameters[name] for name in link.parameters}
 
 
 def _checked_terms(terms: Any) -> tuple[Term, ...]:
@@ -277,6 +295,8 @@ def _checked_terms(terms: Any) -> tuple[Term, ...]:
         if not isinstance(term, Term):
             raise ValueError(f"terms must be made by self_weight, foundation, end_torque or term; one is {term!r}")
         for name in term.parameters:
+            if not name.isidentifier() or hasattr(np, name) or re.fullmatch(r"t\d+", name):
+                raise ValueError(f"the parameter {name} of {term.name} must have a name that numpy and the kernel do not use")
             if name in taken:
                 raise ValueError(f"the parameter {name} of {term.name} is already that of {taken[name]}; rename it")
             taken[name] = term.name

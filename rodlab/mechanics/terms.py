@@ -9,6 +9,7 @@ A term of your own is a function of a link (`rodlab.mechanics.link`) that return
     strut = Strut(n=100, terms=(term(wind, p=0.3),))
 """
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -75,4 +76,5 @@ def term(energy: Callable[[Any], Any], **parameters: Any) -> Term:
     """
     if not callable(energy):
         raise ValueError(f"energy must be a function of a link; it is {energy!r}")
-    return Term(getattr(energy, "__name__", "term"), dict(parameters), energy)
+    name = re.sub(r"\W", "_", getattr(energy, "__name__", "term"))  # a lambda has none that Python would take
+    return Term(name, dict(parameters), energy)

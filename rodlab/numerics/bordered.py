@@ -9,23 +9,12 @@ any A whose perturbed factor is backward stable [Govaerts, SIAM J. Matrix Anal. 
 IMA J. Numer. Anal. 13 (1993) 161]. A border of width m is m borders of width one, each around the last.
 """
 
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
 from rodlab.numerics.arrays import EPS, Array
-
-
-class Solves(Protocol):
-    """A factored matrix: solves with it and with its transpose."""
-
-    def solve(self, b: Array, /) -> Array:
-        """x with A x = b."""
-        ...
-
-    def solve_transposed(self, b: Array, /) -> Array:
-        """x with A^T x = b."""
-        ...
+from rodlab.numerics.factor import Solves
 
 
 class _OneBorder:
@@ -90,7 +79,7 @@ class Bordered:
             z = z + step
             if size <= EPS * np.abs(z).max(initial=0.0):
                 break
-        if last < np.inf and size > 1e-3 * np.abs(z).max(initial=0.0):
+        if last < np.inf and size > 1e-8 * np.abs(z).max(initial=0.0):
             raise ArithmeticError(f"the bordered matrix of order {n + g.size} is singular to working precision")
         return z[:n], z[n:]
 

@@ -13,8 +13,8 @@ from rodlab.numerics.arrays import EPS, TINY, Array, is_finite
 from rodlab.numerics.inertia import Inertia
 
 
-class Factor(Protocol):
-    """A factored matrix A of shape (n, n)."""
+class Solves(Protocol):
+    """A factored matrix A of shape (n, n): solves with it and with its transpose."""
 
     def solve(self, b: Array, /) -> Array:
         """x with A x = b."""
@@ -23,6 +23,10 @@ class Factor(Protocol):
     def solve_transposed(self, b: Array, /) -> Array:
         """x with A^T x = b."""
         ...
+
+
+class Factor(Solves, Protocol):
+    """A factored matrix that also knows its inertia."""
 
     def inertia(self) -> Inertia | None:
         """Signs of the eigenvalues of A; None where A is not symmetric and so has no index."""
@@ -67,6 +71,23 @@ def shifted(matrix: Any, mu: float) -> Any:
 
         return matrix + mu * eye_array(matrix.shape[0])
     return matrix + mu * np.eye(matrix.shape[0])
+
+
+def largest_diagonal(matrix: Any) -> float:
+    """The largest |a_ii| of a matrix of any kind."""
+    diagonal = np.diagonal(matrix) if isinstance(matrix, np.ndarray) else matrix.diagonal
+    return float(np.abs(diagonal() if callable(diagonal) else diagonal).max())
+
+
+def largest_change(a: Any, b: Any) -> float:
+    """Bound on the 2-norm of a - b, two symmetric matrices of one kind."""
+    if hasattr(a, "tocsc"):
+        return float(abs(a - b).sum(axis=1).max())
+    if isinstance(a, np.ndarray) or not hasattr(a, "off_diagonal"):
+        a, b = (m if isinstance(m, np.ndarray) else m.toarray() for m in (a, b))
+        return float(np.abs(a - b).sum(axis=1).max())
+    beside = float(np.abs(a.off_diagonal - b.off_diagonal).max(initial=0.0))
+    return float(np.abs(a.diagonal - b.diagonal).max()) + 2 * beside
 
 
 class DenseFactor:

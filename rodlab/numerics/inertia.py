@@ -29,7 +29,11 @@ class Inertia(NamedTuple):
 
 
 class Symmetric(ABC):
-    """A symmetric matrix that knows the signs of its eigenvalues."""
+    """A symmetric matrix that solves and knows the signs of its eigenvalues."""
+
+    @abstractmethod
+    def solve(self, b: Array) -> Array:
+        """x with A x = b."""
 
     @abstractmethod
     def inertia(self, slack: Array | float = 0.0) -> Inertia:

@@ -1,8 +1,9 @@
-"""Integrals of a function over many intervals at once, each to full relative accuracy.
+"""Integrals of a function over many intervals at once, to rounding where its samples show the function.
 
 Clenshaw and Curtis's rule with 17 points against its own 9: where they agree to rounding the interval is done, where not it is
 halved. Smooth integrands hardly ever halve. The ends of an interval belong to the rule, a hair inside it, so that
 a jump nobody declared cannot hide between an end and the first node: it costs fifty halvings of the interval that holds it.
+What is narrower than the distance of the nodes, a tenth of the interval, may be missed: declare it as breaks.
 """
 
 from collections.abc import Callable

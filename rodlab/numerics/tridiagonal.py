@@ -41,11 +41,6 @@ class Tridiagonal(Symmetric):
         """(n, n)."""
         return (self.diagonal.size, self.diagonal.size)
 
-    @property
-    def nbytes(self) -> int:
-        """Bytes of storage."""
-        return self.diagonal.nbytes + self.off_diagonal.nbytes
-
     def toarray(self) -> Array:
         """The dense matrix, shape (n, n)."""
         return np.diag(self.diagonal) + np.diag(self.off_diagonal, 1) + np.diag(self.off_diagonal, -1)
@@ -186,8 +181,8 @@ def _away_from_zero(pivots: Array, diagonal: Array) -> bool:
 
 def _count_by_bisection(d: Array, e: Array, *, closed: bool) -> int:
     """The same count from dstebz: one bisection step of an interval that reaches to zero."""
-    scale = max(np.abs(d[np.isfinite(d)]).max(initial=0.0), np.abs(e).max(initial=0.0)) or 1.0
-    d = np.clip(d / scale, -1e10, 1e10)
+    scale = max(np.abs(d[1:]).max(initial=0.0), np.abs(e).max(initial=0.0)) or 1.0  # d[0] may carry a huge pivot
+    d = np.append(np.clip(d[:1], -1e10 * scale, 1e10 * scale), d[1:]) / scale
     nothing = 4 * TINY if closed else -4 * TINY  # dstebz counts with pivots at least the safe minimum
     found, *_, info = lapack.dstebz(d, e / scale, 1, -1e300, nothing, 0, 0, 1e300, "B")
     if info != 0:
