@@ -1,1 +1,1 @@
-"""What a person touches: the only wing that prints, draws and writes."""
+"""What a person sees: tables, pictures and files. The only wing that draws and writes; `cli` prints."""
