@@ -31,20 +31,33 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
     parser = _parser()
     chosen = parser.parse_args(arguments)
-    if chosen.verb is None:
-        print(WELCOME, end="")
-        return 0
     try:
-        return int(chosen.run(chosen))
+        code = welcome(chosen) if chosen.verb is None else int(chosen.run(chosen))
+        sys.stdout.flush()
+        return code
     except (ValueError, MemoryError, OverflowError) as error:
-        return _complain(chosen.verb, str(error) or "not enough memory for a strut of this size", 2)
+        large = isinstance(error, MemoryError) or "allowed size" in str(error) or "allowed dimension" in str(error)
+        return _complain(chosen.verb, "n must be a number of joints that fits into memory" if large else str(error), 2)
     except ArithmeticError as error:  # NoConvergence among them
         return _complain(chosen.verb, str(error), 3)
     except BrokenPipeError:
         sys.stderr.close()
         return 0
+    except OSError as error:
+        return _complain(chosen.verb, f"the answer cannot be written: {error.strerror or error}", 2)
     except KeyboardInterrupt:
         return _complain(chosen.verb, "interrupted", 130)
+
+
+def welcome(chosen: argparse.Namespace) -> int:
+    """rodlab"""
+    if chosen.json:
+        from rodlab.lab.store import as_json, framed
+
+        print(as_json(framed("", 0.0, {"welcome": WELCOME.splitlines()})))
+    else:
+        print(WELCOME, end="")
+    return 0
 
 
 def tour(chosen: argparse.Namespace) -> int:
@@ -68,7 +81,7 @@ def buckling(chosen: argparse.Namespace) -> int:
 
     start = time.perf_counter()
     strut = Strut(n=chosen.n, K=_number_or_text(chosen.K), rule=chosen.rule, breaks=tuple(chosen.breaks))
-    numbers = mode_numbers(strut, chosen.modes)
+    numbers = mode_numbers(strut, min(3, strut.n) if chosen.modes is None else chosen.modes)
     found = list(_progress(buckling_each(strut, numbers), "buckling loads", len(numbers), chosen.n * len(numbers)))
     loads, error = zip(*found, strict=True)
     seconds = time.perf_counter() - start
@@ -94,6 +107,7 @@ def _progress(entries: Any, what: str, total: int, work: int) -> Any:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="rodlab", description="A teaching laboratory for elastic rods.")
+    parser.add_argument("--json", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--version", action="version", version=f"rodlab {__version__}")
     verbs = parser.add_subparsers(dest="verb", metavar="VERB")
 
@@ -106,7 +120,7 @@ def _parser() -> argparse.ArgumentParser:
     verb.add_argument("--rule", default="end", help="end or trapezoid (default: %(default)s)")
     verb.add_argument("--K", default="1", help='bending stiffness: a number or an expression in s, "1+s" (default: 1)')
     verb.add_argument("--breaks", type=float, nargs="+", default=[], metavar="S", help="where K jumps")
-    verb.add_argument("--modes", type=int, default=3, help="how many loads (default: %(default)s)")
+    verb.add_argument("--modes", type=int, help="how many loads (default: 3)")
     return parser
 
 
@@ -124,6 +138,6 @@ def _number_or_text(text: str) -> float | str:
         return text
 
 
-def _complain(verb: str, message: str, code: int) -> int:
-    print(f"rodlab {verb}: {message}", file=sys.stderr)
+def _complain(verb: str | None, message: str, code: int) -> int:
+    print(f"rodlab{f' {verb}' if verb else ''}: {message}", file=sys.stderr)
     return code

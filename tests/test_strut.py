@@ -132,7 +132,7 @@ def test_the_symbolic_strut_is_the_numeric_one(state):
     strut, phi, lam = state
     d = strut.derivation(strut.n)
     values = {d.lam: lam, **dict(zip(d.phi, phi, strict=True))}
-    numbers = {"phi_0": strut.joints.phi0, "h": strut.joints.h}
+    numbers = {"phi_0": strut.joints.phi0, **{name: x for name, x in strut.parameters.items() if np.ndim(x) == 0}}
     for name, given_value in strut.parameters.items():
         for i, x in enumerate(np.broadcast_to(given_value, strut.n), start=1):
             numbers[f"{name}_{i}"] = x
@@ -239,7 +239,7 @@ def test_a_nonlinear_spring_changes_the_coupling():
         ({"K": lambda s: 1 / None}, "K must be a function of an array s; it failed with"),
         ({"K": lambda s: s[:2]}, "K must return the shape of s"),
         ({"K": 1e308}, "K must give springs"),
-        ({"K": lambda s: np.where(np.sin(1e5 * s) > 0, 1.0, 2.0), "rule": "trapezoid"}, "K must be integrable"),
+        ({"K": lambda s: np.where(np.sin(1e5 * s) > 0, 1.0, 2.0), "rule": "trapezoid"}, "K must be smooth between its breaks"),
         ({"u_hat": np.nan}, "u_hat must be a finite number; it is nan"),
         ({"u_hat": [np.inf] * 5}, "u_hat must be finite; entry 0 is inf"),
         ({"u_hat": None}, "u_hat must be a finite number; it is None"),

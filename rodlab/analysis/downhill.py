@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rodlab.analysis.equations import Equations, started
+from rodlab.analysis.equations import Equations, jacobian, started
 from rodlab.analysis.newton import FLOOR, Newton, NewtonStep, NoConvergence, Solution
 from rodlab.analysis.point import Point
-from rodlab.numerics.arrays import EPS, Array, number
+from rodlab.numerics.arrays import EPS, Array, number, whole
 from rodlab.numerics.factor import factor, largest_diagonal, shifted
 
 IDLE = 20  # steps that change neither energy nor angles beyond rounding before giving up
@@ -35,9 +35,10 @@ def steepest_descent(
     """The minimum that steepest descent reaches, and its history, one entry a step.
 
     A step may not raise the energy nor pass the lowest point of its line, told by the gradient there, which unlike
-    the energy is not drowned by rounding near the minimum; the next one tries twice its length. Stops
-    when the gradient's norm is below tol times its largest. The model must know its energy (`measures`). The point's
-    error is its distance from the root that Newton's method finds next to it.
+    the energy is not drowned by rounding near the minimum; the next one tries twice its length. Stops when the
+    gradient's norm is below tol times its largest; it does not move from where the gradient is zero, a saddle included.
+    The model must know its energy (`measures`). The point's error is its distance from the root that Newton's method
+    finds next to it.
     Raises `NoConvergence` after `limit` steps: for n joints it needs of the order of n^2 of them.
 
     >>> from rodlab.mechanics.strut import Strut
@@ -45,7 +46,7 @@ def steepest_descent(
     >>> p.index, round(p.tip_angle, 6), len(history)
     (0, 2.561719, 27)
     """
-    lam, u, V = number("lam", lam), started(model, guess), _energy(model)
+    lam, u, V, limit = number("lam", lam), started(model, guess), _energy(model), whole("limit", limit, least=1)
     energy, t, largest = V(u, lam), 1.0, 0.0
     g = np.asarray(model.residual(u, lam))
     history: list[DescentStep] = []
@@ -78,8 +79,8 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
     history: list[NewtonStep] = []
     energy, start, idle = V(u, lam), run.norm(u), 0
     for _ in range(10 * run.limit):
-        g, H = np.asarray(model.residual(u, lam)), model.jacobian(u, lam)
-        least = 16 * EPS * largest_diagonal(H)
+        g, H = np.asarray(model.residual(u, lam)), jacobian(model, u, lam)
+        least = 16 * EPS * largest_diagonal(H) or float(np.abs(g).max()) or 1.0
         while True:
             step, fall = _downward(H, g, mu)
             noise = 1e3 * EPS * abs(energy)
@@ -94,7 +95,7 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
         u = u + step
         energy = V(u, lam)
         scale = max(run.norm(u), start)
-        if size <= near * scale and _downward(model.jacobian(u, lam), g, 0.0)[0] is not None:
+        if size <= near * scale and _downward(jacobian(model, u, lam), g, 0.0)[0] is not None:
             try:
                 root = run.solve(u)
             except NoConvergence:

@@ -49,8 +49,18 @@ class Equations(Protocol):
         ...
 
 
+def jacobian(equations: Equations, u: Array, lam: float) -> Any:
+    """The Jacobian as a matrix: structured, scipy sparse, or a numpy array also where rows came as lists."""
+    J = equations.jacobian(u, lam)
+    return np.asarray(J) if isinstance(J, (list, tuple, np.matrix)) else J
+
+
 def started(equations: Equations, guess: Any) -> Array:
     """The first iterate: the model's own way of reading a guess, or the array itself."""
+    missing = [name for name in ("residual", "jacobian", "d_lam", "inner") if not hasattr(equations, name)]
+    if missing or isinstance(equations, type):
+        lacks = f"lacks {', '.join(missing)}" if missing else "is a class, not an object"
+        raise ValueError(f"model must have the methods of rodlab.Equations; {equations!r:.60} {lacks}")
     start = getattr(equations, "start", None)
     if start is not None:
         return np.asarray(start(guess))

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rodlab.analysis.equations import Equations
+from rodlab.analysis.equations import Equations, jacobian
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.factor import Factor, factor, solve
 
@@ -40,6 +40,9 @@ class NoConvergence(ArithmeticError):
     def __init__(self, message: str, history: tuple[Any, ...]) -> None:
         super().__init__(message)
         self.history = history
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (type(self), (str(self), self.history))
 
 
 @dataclass(frozen=True)
@@ -70,11 +73,20 @@ class Newton:
     def at(cls, model: Equations, lam: float, limit: int = 100) -> "Newton":
         """Newton's method for the equations at a load, in their own length."""
 
+        def residual(u: Array) -> Array:
+            F = np.asarray(model.residual(u, lam))
+            if F.shape != u.shape:
+                raise ValueError(f"residual must return the shape of u, {u.shape}; it returned {F.shape}")
+            return F
+
         def norm(v: Array) -> float:
             with np.errstate(over="ignore"):
-                return math.sqrt(model.inner(v, v))
+                square = float(model.inner(v, v))
+            if square < 0:
+                raise ValueError(f"inner(v, v) must not be negative; it is {square:g}")
+            return math.sqrt(square)
 
-        return cls(lambda u: np.asarray(model.residual(u, lam)), lambda u: model.jacobian(u, lam), norm, limit)
+        return cls(residual, lambda u: jacobian(model, u, lam), norm, limit)
 
     def solve(self, u: Array) -> Solution:
         """A root from the first iterate u; raises `NoConvergence` with its history."""
@@ -112,8 +124,8 @@ class Newton:
             after = self._residual(beyond)
             if after is None:
                 return u, F
-            previous, contraction = contraction, size / last if last < math.inf else math.inf
-            left = _remaining(size, contraction, previous)
+            contraction = size / last if last < math.inf else math.inf
+            left = size * contraction / (1 - contraction) if contraction < 0.5 else math.inf
             if left <= floor:
                 return self._solution(beyond, step, left)
             before, last = (u, F), size
@@ -192,12 +204,3 @@ class Newton:
 
 def _finite(v: Array) -> Array | None:
     return v if np.isfinite(v).all() else None
-
-
-def _remaining(size: float, contraction: float, previous: float) -> float:
-    """What is left after a step: quadratic convergence if the contraction itself shrank so, else linear."""
-    if contraction >= 0.5:
-        return math.inf
-    if contraction <= 4 * previous**2 and previous < 0.5:
-        return 4 * size * max(contraction**2, 1e-8)  # an inexact solve contracts no faster
-    return size * contraction / (1 - contraction)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rodlab.analysis.equations import Equations
+from rodlab.analysis.equations import Equations, jacobian
 from rodlab.analysis.newton import NewtonStep
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.factor import factor, largest_change, shifted
@@ -156,24 +156,26 @@ class Point:
     def error(self) -> float:
         """Estimate from above of the error of the tip angle (the last unknown), against the exact solution.
 
-        Sum of what Newton left, of rounding of u, and of the bound on rounding of the residual carried to the tip by
-        the adjoint v = J^{-T} e_n: of first order in these. Without the member `rounding` the last part is taken
-        from eps |J| |u|. Infinite where the index could not be verified, so that J may be singular and no error is
-        known, unless the residual is exactly zero.
+        Sum of what Newton left, of rounding of u, and of the residual and the bound on its rounding, carried to the tip
+        by the adjoint v = J^{-T} e_n: of first order in these. Without the member `rounding` that bound is an
+        estimate: eps |J| |u|, and what a few units of rounding in u do to the residual. Infinite where the index
+        could not be verified, so that J may be singular and no error is known, unless the residual is exactly zero.
         """
         unit = np.zeros_like(self.u)
         unit[-1] = 1.0
-        J = self.equations.jacobian(self.u, self.lam)
+        J, F = jacobian(self.equations, self.u, self.lam), np.asarray(self.equations.residual(self.u, self.lam))
         with np.errstate(all="ignore"):
-            v = J.solve(unit) if isinstance(J, Symmetric) else factor(J).solve_transposed(unit)
+            v = J.solve_fully(unit) if isinstance(J, Symmetric) else factor(J).solve_transposed(unit)
             if not np.isfinite(v).all():
                 v = np.full_like(unit, np.finfo(float).max)
             own = getattr(self.equations, "rounding", None)
-            if own is not None:
-                rounding = float(own(self.u, self.lam, v))
-            else:
-                rounding = float(
-                    4 * EPS * np.abs(v) @ (abs(J) @ np.abs(self.u) + np.abs(self.equations.residual(self.u, self.lam)))
-                )
+            rounding = float(own(self.u, self.lam, v) if own is not None else np.abs(v) @ self._noise(J, F))
+            rounding += 2 * abs(float(v @ F))  # what the residual still asks for, doubled for what is not linear
         total = self.remaining + EPS * abs(float(self.u[-1])) + (rounding if np.isfinite(rounding) else np.inf)
         return total if total == 0 or self.inertia is None or self.inertia.verified else np.inf
+
+    def _noise(self, J: Any, F: Array) -> Array:
+        """Rounding of the residual, entry by entry: eps |J| |u|, and what moving u by a few units of rounding does."""
+        sign = np.where(np.arange(self.u.size) % 2, 1.0, -1.0)
+        moved = [np.asarray(self.equations.residual(self.u * (1 + side * 4 * EPS * sign), self.lam)) for side in (1, -1)]
+        return np.asarray(4 * EPS * (abs(J) @ np.abs(self.u) + np.abs(F)) + 2 * sum(np.abs(other - F) for other in moved))

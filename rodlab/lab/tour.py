@@ -105,7 +105,7 @@ def _text(answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrap
     )  # fmt: skip
     parts.append(
         "index: negative eigenvalues of the second variation, verified by inertia (? where it is not); 0 is stable.\n"
-        "+-: error of the tip angle, estimated from above, against the exact solution of the same equations. Height and energy have none."
+        "+-: error of the tip angle against the exact solution, estimated from above; height and energy have no estimate."
     )
     written = "\n".join(f"  {path}" for path in answer["files"])
     parts.append(f"Written in {answer['seconds']:.1f} s:\n{written}")

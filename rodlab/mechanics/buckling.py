@@ -89,7 +89,10 @@ def buckling_each(model: Strut, numbers: Sequence[int]) -> Iterator[tuple[float,
     if model.terms:
         yield from _loads_with_terms(model, numbers)
         return
-    a, b = bidiagonal(model)
+    with np.errstate(over="ignore"):
+        a, b = bidiagonal(model)
+    if not float(a.max()) < 1e153:
+        raise ValueError(f"k / (h w), the size of the loads, must stay below 1e306; k reaches {model.joints.k.max():g}")
     for j in numbers:
         load = singular_value(a, b, j) ** 2
         yield load, relative_error(model.n) * load

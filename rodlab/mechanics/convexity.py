@@ -35,6 +35,8 @@ def uniqueness(strut: Strut, lam: float) -> Uniqueness:
     >>> bool(uniqueness(Strut(n=10, u_hat=3.0), 2.0)), bool(uniqueness(Strut(n=10, u_hat=3.0), 3.0))
     (True, False)
     """
+    if not isinstance(strut, Strut):
+        raise ValueError(f"strut must be a Strut; it is {strut!r:.60}")
     lam = number("lam", lam)
     softest = abs(lam) * strut.joints.h * strut.joints.w
     for term in strut.terms:

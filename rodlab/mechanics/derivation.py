@@ -4,7 +4,7 @@ Here V is written out for n joints and differentiated whole; the strut itself de
 compares the two. In a notebook it shows as LaTeX, in a terminal as text.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,31 +42,41 @@ class Derivation:
     __repr__ = __str__
 
 
-def derivation(terms: Sequence[Term], n: int, *, weighted: bool, clamped_upright: bool) -> Derivation:
+def derivation(
+    terms: Sequence[Term], n: int, *, weights: str | None, scalars: Collection[str], clamped_upright: bool
+) -> Derivation:
     """V of n joints, summed from the links and differentiated.
 
+    weights: None where all are 1, "trapezoid" where the last is 1/2, "own" for symbols w_i. scalars: names of the
+    parameters that are one number for all joints. Raises `ValueError` for more than 12 joints.
+
     >>> from rodlab.mechanics.terms import BENDING, END_LOAD
-    >>> d = derivation((BENDING, END_LOAD), 2, weighted=False, clamped_upright=True)
+    >>> d = derivation((BENDING, END_LOAD), 2, weights=None, scalars={"h"}, clamped_upright=True)
     >>> print(d.hessian)
     Matrix([[-h*lambda*cos(phi_1) + k_1 + k_2, -k_2], [-k_2, -h*lambda*cos(phi_2) + k_2]])
     """
     n = whole("n", n, least=1)
     if n > MOST:
         raise ValueError(f"n must be at most {MOST} for showing; it is {n} (the strut itself derives one link for every n)")
-    one = derive(terms, weighted=weighted)
+    one = derive(terms, weighted=weights is not None)
     lam, h = Symbol("lambda", real=True), Symbol("h", positive=True)
     phi0 = sympy.Integer(0) if clamped_upright else Symbol("phi_0", real=True)
     phi = tuple(Symbol(f"phi_{i}", real=True) for i in range(1, n + 1))
     angles = (phi0, *phi)
-    w = [Rational(1, 2) if weighted and i == n else sympy.Integer(1) for i in range(n + 1)]
-    theta = w[n]
-    x = z = sympy.Integer(0)
+    w: list[Any] = [sympy.Integer(1)] * (n + 1)
+    if weights == "own":
+        w[1:] = [Symbol(f"w_{i}", positive=True) for i in range(1, n + 1)]
+    elif weights == "trapezoid":
+        w[n] = Rational(1, 2)
+    theta, x, z = w[n], sympy.Integer(0), sympy.Integer(0)
     V: Any = lam * h * (1 - theta) * cos(phi0)
     for i in range(1, n + 1):
-        x += h * ((1 - theta) * sin(angles[i - 1]) + theta * sin(angles[i]))
-        z += h * ((1 - theta) * cos(angles[i - 1]) + theta * cos(angles[i]))
-        here: dict[str, Any] = {"a": angles[i - 1], "b": angles[i], "x": x, "z": z, "lam": lam, "h": h, "w": w[i]}
-        V += one.energy.subs({s: here.get(s.name, _numbered(s, i)) for s in one.energy.free_symbols}, simultaneous=True)
+        upper, lower = (w[n] if i == n else theta * w[i]), (1 - theta) * w[i - 1]
+        x += h * (lower * sin(angles[i - 1]) + upper * sin(angles[i]))
+        z += h * (lower * cos(angles[i - 1]) + upper * cos(angles[i]))
+        here: dict[str, Any] = {"a": angles[i - 1], "b": angles[i], "x": x, "z": z, "lam": lam, "w": w[i]}
+        names = {s: here.get(s.name, s if s.name in scalars else _numbered(s, i)) for s in one.energy.free_symbols}
+        V += one.energy.subs(names, simultaneous=True)
     gradient = Matrix([sympy.Add(*map(tidy, sympy.Add.make_args(V.diff(p)))) for p in phi])
     return Derivation(phi, lam, V, gradient, gradient.jacobian(phi).applyfunc(sympy.expand), one.source)
 

@@ -104,7 +104,11 @@ def _energy(term: Term) -> Callable[[Link], Expr]:
         own = term.energy
 
         def checked(link: Link) -> Expr:
-            e = sympy.sympify(own(link))
+            try:
+                e = sympy.sympify(own(link))
+                _ = e.free_symbols
+            except (TypeError, AttributeError, sympy.SympifyError) as error:
+                raise ValueError(f"the term {term.name} must return a SymPy expression of the link: {error}") from error
             known = {*ARGUMENTS, "h", "w", "k", "beta", *term.parameters}
             unknown = sorted({s.name for s in e.free_symbols} - known)
             if unknown:

@@ -91,7 +91,10 @@ class Expression:
             raise _NotAllowed("the bounds of Piecewise must ascend")
 
         def chosen(s: Any) -> Any:
-            return np.choose(np.searchsorted(ends, s, side="right"), [value(s) + 0 * s for value in values])
+            piece, out = np.searchsorted(ends, s, side="right"), np.empty_like(s)
+            for i, value in enumerate(values):
+                out = np.where(piece == i, value(s), out)
+            return out
 
         return chosen
 

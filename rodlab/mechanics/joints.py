@@ -27,6 +27,7 @@ class Joints:
     h: float
     phi0: float = 0.0
     weights: Array | None = None
+    length: float | None = None
 
     @property
     def n(self) -> int:
@@ -35,8 +36,8 @@ class Joints:
 
     @property
     def s(self) -> Array:
-        """Arclength of the joints 1..n, shape (n,)."""
-        return np.arange(1.0, self.n + 1) * self.h
+        """Arclength of the joints 1..n, shape (n,); the last is the length exactly."""
+        return np.arange(1.0, self.n + 1) * (self.n * self.h if self.length is None else self.length) / self.n
 
     @property
     def w(self) -> Array:
@@ -61,9 +62,9 @@ def sample(n: int, K: Profile, u_hat: Profile, rule: str, phi0: float) -> Joints
         weights = np.ones(n)
         weights[-1] = 0.5
         k = 1 / K.compliance_over(edges) if K.constant is None else np.full(n, K.constant * n)
-        return Joints(k, u_hat.over(edges), 1 / n, phi0, weights)
+        return Joints(k, u_hat.over(edges), 1 / n, phi0, weights, 1.0)
     s = np.arange(1, n + 1) / n
-    return Joints(K.positive(K.at(s), s) * n, u_hat.at(s) / n, 1 / n, phi0)
+    return Joints(K.positive(K.at(s), s) * n, u_hat.at(s) / n, 1 / n, phi0, length=1.0)
 
 
 def by_rule(n: Any, K: Any, u_hat: Any, rule: str, phi0: Any, breaks: Sequence[Any]) -> Joints:

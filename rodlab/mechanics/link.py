@@ -15,14 +15,14 @@ from sympy import Expr, Integer, Symbol, cos
 
 @dataclass(frozen=True)
 class Link:
-    """A link as a bag of symbols: `link.a`, `link.k`, `link.anything`. `weighted`: whether the rule has weights."""
+    """A link as a bag of symbols: `link.a`, `link.k`, `link.anything`. `_weighted`: whether the rule has weights."""
 
-    weighted: bool = True
+    _weighted: bool = True
 
     def __getattr__(self, name: str) -> Expr:
         if name.startswith("_"):
             raise AttributeError(name)
-        if name == "w" and not self.weighted:
+        if name == "w" and not self._weighted:
             return Integer(1)
         return Symbol(name, positive=True) if name in ("k", "h", "w") else Symbol(name, real=True)
 

@@ -70,7 +70,10 @@ class Profile:
     def _evaluate(self, s: Array) -> Array:
         assert self.function is not None
         try:
-            values = np.asarray(self.function(s), dtype=np.float64)
+            values = np.asarray(self.function(s.copy()))
+            if values.dtype.kind == "c":
+                raise TypeError("it returned complex numbers")
+            values = np.asarray(values, dtype=np.float64)
         except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
             raise ValueError(f"{self.name} must be a function of an array s; it failed with: {error}") from error
         if values.ndim == 0:
@@ -91,4 +94,4 @@ class Profile:
         except ValueError as error:
             if self.name in str(error):
                 raise
-            raise ValueError(f"{self.name} must be integrable, its jumps declared in breaks: {error}") from None
+            raise ValueError(f"{self.name} must be smooth between its breaks and computed in double precision: {error}") from None

@@ -7,6 +7,7 @@ Unknowns phi_1..phi_n, shape (n,), in radians. Positive phi turns clockwise: x' 
 Cost of every method: O(n), but for the Hessian with a term quadratic in the place (a foundation), which is full.
 """
 
+import keyword
 import re
 from collections.abc import Callable, Sequence
 from functools import cached_property
@@ -193,7 +194,7 @@ class Strut:
             guess = Profile("guess", guess).at(self.joints.s)
         return vector("guess", guess, self.n).copy()
 
-    @cached_property
+    @property
     def measures(self) -> dict[str, Callable[[Array, float], float]]:
         """Name -> function of (u, lam): what a point can be asked for."""
         return {
@@ -260,14 +261,17 @@ class Strut:
 
     def nodes(self, phi: Array) -> tuple[Array, Array]:
         """s and phi of the n + 1 joints, the clamp first."""
-        return np.arange(self.n + 1.0) * self.joints.h, np.append(self.joints.phi0, phi)
+        return np.append(0.0, self.joints.s), np.append(self.joints.phi0, phi)
 
     def derivation(self, n: int = 3) -> "Derivation":
         """SymPy's energy, gradient and Hessian of this strut with n joints, and the source of its kernel."""
         from rodlab.mechanics.derivation import derivation
 
         j = self.joints
-        return derivation(self._loaded, n, weighted=j.weights is not None, clamped_upright=j.phi0 == 0)
+        own = j.weights is not None and not ((j.w[:-1] == 1).all() and j.last_weight == 0.5)
+        scalars = {name for name, given in self.parameters.items() if np.ndim(given) == 0}
+        weights = None if j.weights is None else "own" if own else "trapezoid"
+        return derivation(self._loaded, n, weights=weights, scalars=scalars, clamped_upright=j.phi0 == 0)
 
     # --- small parts ----------------------------------------------------------------------------------------------
 
@@ -276,7 +280,7 @@ class Strut:
         return Places(self.joints)
 
     def _state(self, phi: Any, lam: Any) -> tuple[Array, float]:
-        return vector("phi", phi, self.n), number("lam", lam)
+        return vector("phi", phi, self.n, complex_too=True), number("lam", lam)
 
     def _below(self, phi: Array) -> Array:
         below = np.empty_like(phi)
@@ -295,9 +299,9 @@ def _checked_terms(terms: Any) -> tuple[Term, ...]:
         if not isinstance(term, Term):
             raise ValueError(f"terms must be made by self_weight, foundation, end_torque or term; one is {term!r}")
         for name in term.parameters:
-            if not name.isidentifier() or hasattr(np, name) or re.fullmatch(r"t\d+", name):
+            if name.startswith("_") or keyword.iskeyword(name) or hasattr(np, name) or re.fullmatch(r"t\d+", name):
                 raise ValueError(f"the parameter {name} of {term.name} must have a name that numpy and the kernel do not use")
             if name in taken:
-                raise ValueError(f"the parameter {name} of {term.name} is already that of {taken[name]}; rename it")
+                raise ValueError(f"the parameter {name} of {term.name} is already that of {taken[name]}; give each once")
             taken[name] = term.name
     return given

@@ -33,7 +33,7 @@ def number(name: str, value: Any, *, above: float | None = None) -> float:
     """
     allowed = "a finite number" if above is None else f"a finite number above {above:g}"
     message = f"{name} must be {allowed}; it is {value!r}"
-    if isinstance(value, (bool, np.bool_, str, bytes)):
+    if isinstance(value, (bool, np.bool_, str, bytes, complex, np.complexfloating)):
         raise ValueError(message)
     try:
         x = float(value)
@@ -58,10 +58,10 @@ def whole(name: str, value: Any, *, least: int) -> int:
     return int(value)
 
 
-def vector(name: str, values: Any, size: int | None = None) -> Array:
+def vector(name: str, values: Any, size: int | None = None, *, complex_too: bool = False) -> Array:
     """The finite float vector that `values` is, of shape (size,), or one sentence that names it.
 
-    Complex vectors pass, so that derivatives can be checked by a complex step.
+    Complex vectors pass where `complex_too`, so that derivatives can be checked by a complex step.
 
     >>> vector("phi", [0.1, 0.2], 2)
     array([0.1, 0.2])
@@ -71,9 +71,13 @@ def vector(name: str, values: Any, size: int | None = None) -> Array:
     """
     try:
         x = np.asarray(values)
+        if x.dtype.kind == "c" and not complex_too:
+            raise ValueError(f"{name} must be real; it is complex")
         if x.dtype.kind != "c":
             x = np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError) as error:
+        if "must be real" in str(error):
+            raise
         raise ValueError(f"{name} must be an array of numbers; it is {values!r:.60}") from None
     if x.ndim != 1 or (size is not None and x.size != size):
         wanted = "one dimension" if size is None else f"shape ({size},)"

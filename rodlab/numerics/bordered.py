@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.arrays import EPS, Array, vector
 from rodlab.numerics.factor import Solves
 
 
@@ -54,6 +54,9 @@ class Bordered:
     """
 
     def __init__(self, matrix: Any, factor: Solves, *, B: Array, C: Array, D: Array) -> None:
+        B, C, D = (np.asarray(block, dtype=np.float64) for block in (B, C, D))
+        if B.ndim != 2 or B.shape != C.shape or D.shape != (B.shape[1], B.shape[1]) or B.shape[1] == 0:
+            raise ValueError(f"B and C must have shape (n, m) and D (m, m), m >= 1; they have {B.shape}, {C.shape}, {D.shape}")
         self.matrix, self.B, self.C, self.D = matrix, B, C, D
         solver: Solves = factor
         for j in range(D.shape[0]):
@@ -65,6 +68,7 @@ class Bordered:
 
         Raises `ArithmeticError` when the bordered matrix is itself singular: nothing then is a solution.
         """
+        f, g = vector("f", f, self.B.shape[0]), vector("g", g, self.B.shape[1])
         n = f.size
         z, size = np.zeros(n + g.size), np.inf
         for _ in range(4):

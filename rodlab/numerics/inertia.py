@@ -35,6 +35,10 @@ class Symmetric(ABC):
     def solve(self, b: Array) -> Array:
         """x with A x = b."""
 
+    def solve_fully(self, b: Array) -> Array:
+        """x with A x = b, to all the accuracy that the matrix's own data allow."""
+        return self.solve(b)
+
     @abstractmethod
     def inertia(self, slack: Array | float = 0.0) -> Inertia:
         """Signs of the eigenvalues of every symmetric matrix within diag(slack), and rounding, of this one."""

@@ -57,11 +57,12 @@ class Tridiagonal(Symmetric):
     def solve(self, b: Array) -> Array:
         """x with T x = b, linear in n: L D L^T where its pivots stay away from zero, else dgtsv with partial pivoting."""
         n = self.diagonal.size
+        b = vector("b", b, n)
         if n == 1:
             return self.factor().solve(b)
         pivots, multipliers = self.diagonal.copy(), self.off_diagonal.copy()
         negative, done = _factor_in_place(pivots, multipliers, 64, closed=False)
-        if done == n and (negative == 0 or _away_from_zero(pivots, self.diagonal)):
+        if done == n and (negative == 0 or _away_from_zero(pivots, self.diagonal, self.off_diagonal)):
             x, _ = lapack.dpttrs(pivots, multipliers, b)
             return np.asarray(x)
         *_, x, info = lapack.dgtsv(self.off_diagonal, self.diagonal, self.off_diagonal, b)
@@ -108,6 +109,7 @@ class TridiagonalFactor:
 
     def solve(self, b: Array) -> Array:
         """x with T x = b."""
+        b = vector("b", b, self.matrix.diagonal.size)
         x, _ = lapack.dgttrs(*self._factors, np.append(b, self._padding) if self._padding.size else b)
         return np.asarray(x[: b.size])
 
@@ -174,9 +176,10 @@ def _factor_in_place(d: Array, e: Array, stops: int, *, closed: bool) -> tuple[i
     return negative, start
 
 
-def _away_from_zero(pivots: Array, diagonal: Array) -> bool:
+def _away_from_zero(pivots: Array, diagonal: Array, off_diagonal: Array) -> bool:
     """True when no pivot is so small that elimination without pivoting loses more than half the digits."""
-    return float(np.abs(pivots).min()) > 1e-7 * max(float(diagonal.max()), -float(diagonal.min()))
+    size = max(float(array.max()) if side > 0 else -float(array.min()) for array in (diagonal, off_diagonal) for side in (1, -1))
+    return float(np.abs(pivots).min()) > 1e-7 * size
 
 
 def _count_by_bisection(d: Array, e: Array, *, closed: bool) -> int:
