@@ -88,6 +88,26 @@ def test_bad_usage_is_code_2_and_one_sentence(arguments, says, capsys):
     assert "Traceback" not in seen.err
 
 
+def test_fewer_joints_than_three_have_fewer_loads(capsys):
+    assert cli.main(["buckling", "-n", "2", "--json"]) == 0
+    assert len(json.loads(capsys.readouterr().out)["loads"]) == 2
+
+
+def test_json_alone(capsys):
+    assert cli.main(["--json"]) == 0
+    assert "rodlab tour" in str(json.loads(capsys.readouterr().out)["welcome"])
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
+def test_a_full_disk_is_said():
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "rodlab", "buckling", "-n", "3"], stdout=full, stderr=subprocess.PIPE, text=True, check=False
+        )
+    assert done.returncode == 2
+    assert "cannot be written" in done.stderr
+
+
 def test_an_unknown_verb_is_code_2():
     assert "invalid choice" in run("bend", code=2).stderr
 

@@ -116,6 +116,25 @@ def test_integrals_meet_closed_forms():
     assert jump.sum() == pytest.approx(1 - 1 / np.pi, rel=1e-14)
 
 
+@pytest.mark.parametrize(
+    "K", ["1 - s", "(1 - s)**2", "s", "Piecewise((0.3 - s, s < 0.3), (s - 0.3, True))", lambda s: abs(s - 0.5)]
+)
+def test_a_rod_that_is_infinitely_soft_somewhere_is_refused(K):
+    for n in (2, 10, 101):
+        with pytest.raises(ValueError, match="K must be"):
+            rodlab.Strut(n=n, K=K, rule="trapezoid")
+
+
+def test_a_function_that_changes_its_argument_changes_nothing_else():
+    strut = rodlab.Strut(n=2, K=lambda s: s.__iadd__(1), u_hat="s")
+    assert strut.joints.beta == pytest.approx([0.25, 0.5])
+
+
+def test_many_pieces():
+    pieces = ", ".join(f"({i}, s < {i}/100)" for i in range(1, 100))
+    assert Expression(f"Piecewise({pieces}, (100, True))")(np.array([0.005, 0.505, 0.995])) == pytest.approx([1, 51, 100])
+
+
 def test_profiles_take_what_the_readme_says():
     s = np.array([0.5, 1.0])
     for given in (2.0, [2.0, 2.0], lambda s: 2 + 0 * s, "2", lambda s: 2):

@@ -246,6 +246,109 @@ def test_the_error_of_a_point_holds_and_is_not_idle(strut, lam, bend):
     assert p.error <= 1e-13 * condition * max(1.0, abs(p.tip_angle)) * strut.n
 
 
+@pytest.mark.parametrize(
+    ("k", "lam", "guess"),
+    [
+        ([1e-6, 1, 1e-6, 1e6, 10], 1.3962032142259697e-07, 1e-6 * np.ones(5)),
+        ([1e-6, 1e3, 1e5, 1e2, 1e6], 2.5999999941665365e-07, np.ones(5)),
+        ([1e5, 1e-4, 0.1], 4.998749990081875e-05, np.ones(3)),
+        ([1e-4, 10, 1e-6], 9.899009493293802e-07, np.ones(3)),
+        ([1] * 11, 0.0163795 * (1 - 1e-9), 3 * np.cos(np.arange(11))),
+    ],
+)
+def test_the_error_holds_for_springs_that_sums_do_not_hold(k, lam, guess):
+    """Springs over decades and loads a hair below the first: the adjoint is solved in the mixed form."""
+    strut = rl.Strut.from_joints(k=k)
+    p = rl.equilibrium(strut, lam, guess)
+    assert abs(float(exact_tip(strut, p.u, lam, 60) - p.tip_angle)) <= p.error
+
+
+@settings(max_examples=60)
+@given(st.lists(st.floats(-5, 5), min_size=1, max_size=7), st.floats(-9, -3), st.booleans(), st.integers(0, 2))
+def test_the_error_holds_near_the_first_load(exponents, distance, above, bend):
+    k = 10.0 ** np.array(exponents)
+    strut = rl.Strut.from_joints(k=k)
+    lam = rl.buckling_loads(strut, 1)[0] * (1 + (10.0**distance if above else -(10.0**distance)))
+    try:
+        p = rl.equilibrium(strut, lam, bend * np.cos(np.arange(k.size)))
+    except rl.NoConvergence:
+        return
+    if np.isfinite(p.error):
+        assert abs(float(exact_tip(strut, p.u, lam, 60) - p.tip_angle)) <= p.error
+
+
+@pytest.mark.parametrize("beta", [1e-9, 1e-8, -3e-9])
+def test_one_joint_at_its_load_with_a_tiny_rest_angle(beta):
+    """phi = (6 beta)^(1/3) + ...: the Hessian at the start is exactly zero, and the way downhill ends."""
+    p = rl.equilibrium(rl.Strut.from_joints(k=[1.0], beta=[beta]), 1.0)
+    assert p.tip_angle == pytest.approx(np.cbrt(6 * beta), rel=1e-4)
+    assert p.index == 0
+
+
+class Cube:
+    """(u - 1)^3 = lam, written out: cancellation makes its residual noisy near the triple root."""
+
+    def residual(self, u, lam):
+        return u**3 - 3 * u**2 + 3 * u - 1 - lam
+
+    def jacobian(self, u, lam):
+        return (3 * u**2 - 6 * u + 3).reshape(1, 1).tolist()
+
+    def d_lam(self, u, lam):
+        return -np.ones_like(u)
+
+    def inner(self, u, v):
+        return u @ v
+
+
+def test_the_error_of_a_noisy_class_is_not_idle():
+    p = rl.equilibrium(Cube(), 1e-6, [2.0])
+    assert abs(p.u[0] - 1.01) <= p.error < 1e-9
+    assert p.index_verified
+    p = rl.equilibrium(Cube(), 0.0, [2.0])
+    assert not p.index_verified
+    assert p.error == np.inf
+
+
+class Shapeless(Cube):
+    def residual(self, u, lam):
+        return np.zeros(2)
+
+
+class Negative(Cube):
+    def inner(self, u, v):
+        return -(u @ v)
+
+
+@pytest.mark.parametrize(
+    ("model", "says"),
+    [
+        (Shapeless(), r"residual must return the shape of u, \(1,\); it returned \(2,\)"),
+        (Negative(), r"inner\(v, v\) must not be negative"),
+        (Cube, "is a class, not an object"),
+        (5, "lacks residual, jacobian, d_lam, inner"),
+    ],
+)
+def test_what_is_no_model_is_said(model, says):
+    with pytest.raises(ValueError, match=says):
+        rl.equilibrium(model, 1.0, [2.0])
+
+
+def test_points_and_failures_travel_between_processes():
+    import pickle
+
+    p = rl.equilibrium(rl.Strut(n=3), 5.0, [0.5, 1.0, 1.5])
+    p.tip_angle, p.error, p.index  # noqa: B018  what was asked for may be cached
+    assert pickle.loads(pickle.dumps(p)).tip_angle == p.tip_angle
+    failure = pickle.loads(pickle.dumps(rl.NoConvergence("why", (1,))))
+    assert (str(failure), failure.history) == ("why", (1,))
+
+
+def test_a_point_reaches_its_own_ends():
+    for n in (49, 98, 103, 187):
+        assert rl.equilibrium(rl.Strut(n=n), 1.0)(1.0).z == pytest.approx(1.0)
+
+
 @pytest.mark.parametrize("n", [10**3, 10**4])
 def test_the_error_of_a_long_strut(n):
     strut = rl.Strut(n=n)

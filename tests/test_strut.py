@@ -143,6 +143,17 @@ def test_the_symbolic_strut_is_the_numeric_one(state):
     assert np.array(d.hessian.subs(values), float) == pytest.approx(strut.hessian(phi, lam).toarray(), rel=1e-10, abs=1e-10)
 
 
+def test_derivation_shows_weights_and_single_numbers_as_they_are():
+    strut = rl.Strut.from_joints(k=[1, 2], weights=[2, 4])
+    d = strut.derivation(2)
+    numbers = {"k_1": 1, "k_2": 2, "w_1": 2, "w_2": 4, "h": 1, "phi_1": 0.3, "phi_2": 0.7, "lambda": 2.0}
+    values = {s: numbers[s.name] for s in d.energy.free_symbols}
+    assert float(d.energy.subs(values)) == pytest.approx(strut.energy([0.3, 0.7], 2.0))
+    torque = rl.Strut(n=3, terms=(rl.end_torque(0.2),)).derivation(2).gradient
+    assert "tau" not in str(torque[0])
+    assert "tau" in str(torque[1])
+
+
 def test_derivation_shows_itself():
     d = rl.Strut(n=50).derivation(3)
     assert d.hessian[0, 2] == 0

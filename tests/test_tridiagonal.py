@@ -98,6 +98,22 @@ def test_the_zero_pivot_of_the_notes():
     assert T.solve(np.array([1.0, 0.0])) == pytest.approx([0.0, -1.0])
 
 
+@pytest.mark.parametrize("size", [0.0, 1e-20, 1e-9])
+def test_a_zero_diagonal_is_pivoted(size):
+    rng = np.random.default_rng(0)
+    for n in (2, 4, 10):
+        T, x = Tridiagonal(np.full(n, size), rng.uniform(1, 2, n - 1)), rng.standard_normal(n)
+        assert T.solve(T @ x) == pytest.approx(x, rel=1e-6)
+
+
+def test_a_side_of_the_wrong_length_is_refused():
+    T = Tridiagonal(np.full(3, 2.0), np.ones(2))
+    for solve in (T.solve, T.factor().solve, DifferenceForm(Springs(np.ones(3)), np.zeros(3)).solve):
+        for b in (np.ones(2), [1.0, 2.0, 3.0, 4.0]):
+            with pytest.raises(ValueError, match=r"b must have shape \(3,\)"):
+                solve(b)
+
+
 def test_no_determinant_overflows():
     n = 5000
     T = Tridiagonal(np.full(n, 1e8), np.full(n - 1, 1e-8))

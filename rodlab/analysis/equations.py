@@ -51,8 +51,18 @@ class Equations(Protocol):
 
 def jacobian(equations: Equations, u: Array, lam: float) -> Any:
     """The Jacobian as a matrix: structured, scipy sparse, or a numpy array also where rows came as lists."""
-    J = equations.jacobian(u, lam)
-    return np.asarray(J) if isinstance(J, (list, tuple, np.matrix)) else J
+    return as_matrix(equations.jacobian(u, lam))
+
+
+def second_variation(equations: Equations, u: Array, lam: float) -> Any:
+    """The symmetric matrix whose negative eigenvalues are the index: the model's own, else the Jacobian."""
+    own = getattr(equations, "second_variation", None)
+    return jacobian(equations, u, lam) if own is None else as_matrix(own(u, lam))
+
+
+def as_matrix(given: Any) -> Any:
+    """Rows in lists as a numpy array; any other matrix as it is."""
+    return np.asarray(given) if isinstance(given, (list, tuple, np.matrix)) else given
 
 
 def started(equations: Equations, guess: Any) -> Array:

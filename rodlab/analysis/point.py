@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rodlab.analysis.equations import Equations, jacobian
+from rodlab.analysis.equations import Equations, jacobian, second_variation
 from rodlab.analysis.newton import NewtonStep
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.factor import factor, largest_change, shifted
@@ -106,13 +106,14 @@ class Point:
     @cached_property
     def inertia(self) -> Inertia | None:
         """Signs of the eigenvalues of the second variation; None where there is none (no symmetric Jacobian)."""
-        second = getattr(self.equations, "second_variation", self.equations.jacobian)
-        matrix = second(self.u, self.lam)
+        matrix = second_variation(self.equations, self.u, self.lam)
         bound = getattr(self.equations, "lipschitz", None)
         change = np.inf if bound is None else bound(self.lam)
         if not np.isfinite(change):
-            change = self._lipschitz_seen(second, matrix)
+            change = self._lipschitz_seen(matrix)
         slack = 2 * self.remaining_angle * change
+        if not np.isfinite(slack):
+            return Inertia(0, self.u.size, 0)
         if hasattr(matrix, "inertia"):
             structured: Inertia = matrix.inertia(slack)
             return structured
@@ -124,10 +125,10 @@ class Point:
         assert most is not None
         return Inertia(least.negative, most.negative + most.unclear - least.negative, most.positive)
 
-    def _lipschitz_seen(self, second: Any, matrix: Any) -> float:
+    def _lipschitz_seen(self, matrix: Any) -> float:
         """Change of the second variation a short way off, per unit of angle: where no bound is known, ten times that."""
         step = max(1e-6, 2 * self.remaining_angle) * np.where(np.arange(self.u.size) % 3, 1.0, -1.0)
-        moved = [second(self.u + side * step, self.lam) for side in (1, -1)]
+        moved = [second_variation(self.equations, self.u + side * step, self.lam) for side in (1, -1)]
         return 10 * max(largest_change(other, matrix) for other in moved) / float(np.abs(step).max())
 
     @property
@@ -147,10 +148,18 @@ class Point:
 
     # --- error -----------------------------------------------------------------------------------------------------
 
-    @property
+    @cached_property
     def remaining_angle(self) -> float:
-        """What Newton left undone, as a change of any one unknown, with rounding of the unknowns themselves."""
-        return self.remaining + EPS * float(np.abs(self.u).max(initial=0.0))
+        """What Newton left undone, as a change of any one unknown, with rounding of the unknowns themselves.
+
+        Where the model does not know its rounding, also what the noise of its residual does to the unknowns.
+        """
+        left = self.remaining + EPS * float(np.abs(self.u).max(initial=0.0))
+        if hasattr(self.equations, "rounding"):
+            return left
+        J = jacobian(self.equations, self.u, self.lam)
+        with np.errstate(all="ignore"):
+            return left + float(np.abs(factor(J).solve(self._noise(J))).max())
 
     @cached_property
     def error(self) -> float:
@@ -158,7 +167,7 @@ class Point:
 
         Sum of what Newton left, of rounding of u, and of the residual and the bound on its rounding, carried to the tip
         by the adjoint v = J^{-T} e_n: of first order in these. Without the member `rounding` that bound is an
-        estimate: eps |J| |u|, and what a few units of rounding in u do to the residual. Infinite where the index
+        estimate: eps |J| |u|, and how far from linear the residual is over a few units of rounding. Infinite where the index
         could not be verified, so that J may be singular and no error is known, unless the residual is exactly zero.
         """
         unit = np.zeros_like(self.u)
@@ -169,13 +178,16 @@ class Point:
             if not np.isfinite(v).all():
                 v = np.full_like(unit, np.finfo(float).max)
             own = getattr(self.equations, "rounding", None)
-            rounding = float(own(self.u, self.lam, v) if own is not None else np.abs(v) @ self._noise(J, F))
+            rounding = float(own(self.u, self.lam, v) if own is not None else np.abs(v) @ self._noise(J))
             rounding += 2 * abs(float(v @ F))  # what the residual still asks for, doubled for what is not linear
         total = self.remaining + EPS * abs(float(self.u[-1])) + (rounding if np.isfinite(rounding) else np.inf)
         return total if total == 0 or self.inertia is None or self.inertia.verified else np.inf
 
-    def _noise(self, J: Any, F: Array) -> Array:
-        """Rounding of the residual, entry by entry: eps |J| |u|, and what moving u by a few units of rounding does."""
-        sign = np.where(np.arange(self.u.size) % 2, 1.0, -1.0)
-        moved = [np.asarray(self.equations.residual(self.u * (1 + side * 4 * EPS * sign), self.lam)) for side in (1, -1)]
-        return np.asarray(4 * EPS * (abs(J) @ np.abs(self.u) + np.abs(F)) + 2 * sum(np.abs(other - F) for other in moved))
+    def _noise(self, J: Any) -> Array:
+        """Rounding of the residual, entry by entry: eps |J| |u|, and how far from linear it is over a few units of rounding."""
+        F, rng = np.asarray(self.equations.residual(self.u, self.lam)), np.random.default_rng(0)
+        noise = EPS * (abs(J) @ np.abs(self.u) + np.abs(F))
+        for _ in range(8):
+            step = self.u * (1 + 1e4 * EPS * rng.uniform(-1, 1, self.u.size)) - self.u
+            noise = np.maximum(noise, np.abs(np.asarray(self.equations.residual(self.u + step, self.lam)) - F - J @ step))
+        return np.asarray(4 * noise)

@@ -45,6 +45,11 @@ def _derived(recipe: tuple[tuple[str, tuple[str, ...], Any], ...], weighted: boo
     terms = [Term(name, dict.fromkeys(names), energy) for name, names, energy in recipe]
     derivation = derive(terms, weighted=weighted)
     namespace: dict[str, Any] = {}
-    exec("from numpy import *\n" + HEADER + derivation.source, namespace)  # noqa: S102  our own generated text
+    try:
+        source = derivation.source
+    except NotImplementedError as error:  # SymPy's printer: DiracDelta, say, from the derivative of a kink
+        names = ", ".join(term.name for term in terms if term.energy)
+        raise ValueError(f"the energy of {names} must be smooth, of functions that numpy has; {error}".split("\n")[0]) from None
+    exec("from numpy import *\n" + HEADER + source, namespace)  # noqa: S102  our own generated text
     compiled: Kernel = namespace[derivation.name]
     return compiled

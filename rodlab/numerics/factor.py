@@ -94,6 +94,8 @@ class DenseFactor:
     """P A = L U of a dense matrix (dgetrf), O(n^3)."""
 
     def __init__(self, matrix: Any) -> None:
+        if np.iscomplexobj(matrix):
+            raise ValueError("the matrix must be real; it is complex")
         A = np.asarray(matrix, dtype=np.float64)
         if A.ndim != 2 or A.shape[0] != A.shape[1]:
             raise ValueError(f"the matrix must be square; it has shape {A.shape}")
