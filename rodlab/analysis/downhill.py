@@ -132,4 +132,5 @@ def _downward(H: Any, g: Array, mu: float) -> tuple[Array | None, float]:
 def _energy(model: Equations) -> Any:
     if not has_energy(model):
         raise ValueError(f"model must know its energy to go downhill; {type(model).__name__} has no measure 'energy'")
-    return model.measures["energy"]  # type: ignore[attr-defined]
+    measures: dict[str, Any] = getattr(model, "measures", {})
+    return measures["energy"]

@@ -69,14 +69,14 @@ def buckling_loads(model: Strut, modes: int | Sequence[int] = 3) -> Array:
     return buckling(model, modes).loads
 
 
-def mode_numbers(model: Any, modes: int | Sequence[int]) -> tuple[int, ...]:
+def mode_numbers(model: Any, modes: Any) -> tuple[int, ...]:
     """The mode numbers asked for, ascending, checked against the model."""
     if not isinstance(model, Strut):
         raise ValueError(f"model must be a Strut; it is {model!r:.60}")
     if not model.is_straight:
         raise ValueError("model must be straight to buckle: phi0, u_hat and every rest angle zero, no term that bends it")
     asked = range(1, whole("modes", modes, least=1) + 1) if np.ndim(modes) == 0 else modes
-    numbers = tuple(sorted({whole("a mode number", j, least=1) for j in asked}))  # type: ignore[union-attr]
+    numbers = tuple(sorted({whole("a mode number", j, least=1) for j in asked}))
     if not numbers:
         raise ValueError("modes must name at least one mode; it is empty")
     if numbers[-1] > model.n:

@@ -7,8 +7,6 @@ Unknowns phi_1..phi_n, shape (n,), in radians. Positive phi turns clockwise: x' 
 Cost of every method: O(n), but for the Hessian with a term quadratic in the place (a foundation), which is full.
 """
 
-import keyword
-import re
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -21,7 +19,7 @@ from rodlab.mechanics.joints import Joints
 from rodlab.mechanics.kernels import Kernel, kernel
 from rodlab.mechanics.places import Places
 from rodlab.mechanics.profile import Profile
-from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term
+from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term, checked
 from rodlab.numerics.arrays import EPS, Array, number, vector
 from rodlab.numerics.difference import DifferenceForm, Springs
 from rodlab.numerics.full import Full
@@ -88,7 +86,7 @@ class Strut:
 
     def _build(self, joints: Joints, terms: Sequence[Term], breaks: Sequence[float]) -> None:
         self.joints = joints
-        self.terms = _checked_terms(terms)
+        self.terms = checked(terms)
         self.springs = Springs(joints.k)
         bend = BENDING_WITH_REST if joints.curved else BENDING
         self._loaded = (bend, END_LOAD, *self.terms)
@@ -290,18 +288,3 @@ class Strut:
 
     def _given(self, link: Kernel) -> dict[str, Any]:
         return {name: self.parameters[name] for name in link.parameters}
-
-
-def _checked_terms(terms: Any) -> tuple[Term, ...]:
-    given: tuple[Any, ...] = tuple(terms) if isinstance(terms, (tuple, list)) else (terms,)
-    taken: dict[str, str] = dict.fromkeys(("a", "b", "x", "z", "lam", "k", "beta", "h", "w"), "the strut")
-    for term in given:
-        if not isinstance(term, Term):
-            raise ValueError(f"terms must be made by self_weight, foundation, end_torque or term; one is {term!r}")
-        for name in term.parameters:
-            if name.startswith("_") or keyword.iskeyword(name) or hasattr(np, name) or re.fullmatch(r"t\d+", name):
-                raise ValueError(f"the parameter {name} of {term.name} must have a name that numpy and the kernel do not use")
-            if name in taken:
-                raise ValueError(f"the parameter {name} of {term.name} is already that of {taken[name]}; give each once")
-            taken[name] = term.name
-    return given

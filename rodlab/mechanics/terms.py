@@ -9,10 +9,13 @@ A term of your own is a function of a link (`rodlab.mechanics.link`) that return
     strut = Strut(n=100, terms=(term(wind, p=0.3),))
 """
 
+import keyword
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
+
+import numpy as np
 
 from rodlab.numerics.arrays import number
 
@@ -78,3 +81,19 @@ def term(energy: Callable[[Any], Any], **parameters: Any) -> Term:
         raise ValueError(f"energy must be a function of a link; it is {energy!r}")
     name = re.sub(r"\W", "_", getattr(energy, "__name__", "term"))  # a lambda has none that Python would take
     return Term(name, dict(parameters), energy)
+
+
+def checked(terms: Any) -> tuple[Term, ...]:
+    """The terms as a tuple, or one sentence about the first that is none or whose parameters are taken."""
+    given: tuple[Any, ...] = tuple(terms) if isinstance(terms, (tuple, list)) else (terms,)
+    taken: dict[str, str] = dict.fromkeys(("a", "b", "x", "z", "lam", "k", "beta", "h", "w"), "the strut")
+    for term in given:
+        if not isinstance(term, Term):
+            raise ValueError(f"terms must be made by self_weight, foundation, end_torque or term; one is {term!r}")
+        for name in term.parameters:
+            if name.startswith("_") or keyword.iskeyword(name) or hasattr(np, name) or re.fullmatch(r"t\d+", name):
+                raise ValueError(f"the parameter {name} of {term.name} must have a name that numpy and the kernel do not use")
+            if name in taken:
+                raise ValueError(f"the parameter {name} of {term.name} is already that of {taken[name]}; give each once")
+            taken[name] = term.name
+    return given
