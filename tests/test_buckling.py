@@ -43,6 +43,12 @@ def test_random_stiffnesses_over_12_decades(n, tolerance, seed):
     assert_good(rl.buckling(strut, numbers), exact_loads(k, np.ones(n), numbers), tolerance)
 
 
+def test_a_thousand_random_springs_over_12_decades():
+    k = 10.0 ** np.random.default_rng(11).uniform(-6, 6, 1000)
+    strut = rl.Strut.from_joints(k=k, h=1e-3)
+    assert_good(rl.buckling(strut, [1, 2, 1000]), exact_loads(k, np.full(1000, 1e-3), [1, 2, 1000]), 1e-13)
+
+
 def test_all_modes_at_once():
     strut = rl.Strut(n=60)
     assert_good(rl.buckling(strut, 60), [uniform(60, "end", j) for j in range(1, 61)], 1e-13)
