@@ -9,7 +9,7 @@ whatever n and the ratio of stiffnesses. Uniform strut, K = 1:
 With terms the second variation is D^T k D - C - lam h W, and the loads are bracketed by its inertia, in the mixed form.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -124,7 +124,11 @@ def _loads_with_terms(strut: Strut, numbers: Sequence[int]) -> Iterator[tuple[fl
     """Loads bracketed by the index of the second variation at phi = 0, which rises by one at each."""
     hw = strut.joints.h * strut.joints.w
     unloaded, loaded = strut.hessian(np.zeros(strut.n), 0.0), strut.hessian(np.zeros(strut.n), 1.0)
-    if np.abs(unloaded.diagonal - loaded.diagonal - hw).max() > 1e-9 * (hw + np.abs(unloaded.diagonal)).max():
+    if isinstance(unloaded, DifferenceForm) and isinstance(loaded, DifferenceForm):
+        change, size = loaded.c - unloaded.c, np.abs(unloaded.c) + hw
+    else:
+        change, size = unloaded.diagonal - loaded.diagonal, np.abs(unloaded.diagonal) + hw
+    if np.abs(change - hw).max() > 1e-9 * size.max():
         raise ValueError("a term of the strut takes part in the load; its buckling loads are not those of a load on the tip")
     if isinstance(unloaded, Full):
         scale = 1 / np.sqrt(hw)
@@ -136,23 +140,40 @@ def _loads_with_terms(strut: Strut, numbers: Sequence[int]) -> Iterator[tuple[fl
         raise ValueError("the terms of the strut turn its springs negative; it has no buckling loads to bracket")
     reach = float((np.abs(unloaded.diagonal).max() + 2 * strut.springs.k.max()) / hw.min())
 
-    zero = np.zeros(strut.n)
-
     def below(load: float) -> tuple[int, int]:
-        known = strut.hessian(zero, load).inertia((4 * EPS) * np.abs(unloaded.c).max())
+        """Loads certainly below this one, and those that may be."""
+        known = DifferenceForm(strut.springs, unloaded.c + load * hw, unloaded.spread).inertia()
         return known.negative, known.negative + known.unclear
 
     for j in numbers:
-        low = _last(lambda load, j=j: below(load)[1] < j, -reach, reach)
-        high = -_last(lambda load, j=j: below(-load)[0] >= j, -reach, reach)
-        yield (low + high) / 2, (high - low) / 2 + relative_error(strut.n) * abs(low + high) / 2
+        yield _bracketed(below, j, reach, relative_error(strut.n))
 
 
-def _last(holds: Any, low: float, high: float) -> float:
-    """The last float at which `holds`, true at `low` and false at `high`, by bisection."""
-    for _ in range(1100):
+def _bracketed(below: Callable[[float], tuple[int, int]], j: int, reach: float, precision: float) -> tuple[float, float]:
+    """Load j and a bound on its error: certainly not below `low`, certainly below `high`, by bisection from both sides."""
+    low, high = -reach, reach
+    while high - low > precision * max(abs(low), abs(high)) / 8:
+        middle = (low + high) / 2
+        if not low < middle < high:
+            break
+        sure, maybe = below(middle)
+        if maybe < j:
+            low = middle
+        elif sure >= j:
+            high = middle
+        else:  # neither: the load is too near to tell; the two ends are now searched apart
+            low = _last(lambda load: below(load)[1] < j, low, middle, precision)
+            high = -_last(lambda load: below(-load)[0] >= j, -high, -middle, precision)
+            break
+    load = (low + high) / 2
+    return load, (high - low) / 2 + precision * abs(load)
+
+
+def _last(holds: Callable[[float], bool], low: float, high: float, precision: float) -> float:
+    """A number at which `holds`, true at `low` and false at `high`, next to where it ceases to."""
+    while high - low > precision * max(abs(low), abs(high)) / 8:
         middle = low + (high - low) / 2
-        if not low < middle < high or high - low <= 2 * EPS * abs(low):
+        if not low < middle < high:
             break
         low, high = (middle, high) if holds(middle) else (low, middle)
     return low
