@@ -16,7 +16,7 @@ from rodlab.analysis.equations import Equations, jacobian, started
 from rodlab.analysis.newton import FLOOR, Newton, NewtonStep, NoConvergence, Solution
 from rodlab.analysis.point import Point
 from rodlab.numerics.arrays import EPS, Array, number, whole
-from rodlab.numerics.factor import factor, largest_diagonal, shifted
+from rodlab.numerics.factor import inertia_of, largest_diagonal, shifted, solve
 
 IDLE = 20  # steps that change neither energy nor angles beyond rounding before giving up
 
@@ -81,9 +81,9 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
     for _ in range(10 * run.limit):
         g, H = np.asarray(model.residual(u, lam)), jacobian(model, u, lam)
         least = 16 * EPS * largest_diagonal(H) or float(np.abs(g).max()) or 1.0
+        noise = 1e3 * EPS * abs(energy)
         while True:
             step, fall = _downward(H, g, mu)
-            noise = 1e3 * EPS * abs(energy)
             gain = -math.inf if step is None else energy - V(u + step, lam)
             if step is not None and (gain >= fall / 10 or (fall <= noise and gain >= -noise)):
                 break
@@ -95,7 +95,7 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
         u = u + step
         energy = V(u, lam)
         scale = max(run.norm(u), start)
-        if size <= near * scale and _downward(jacobian(model, u, lam), g, 0.0)[0] is not None:
+        if size <= near * scale and _is_positive(jacobian(model, u, lam)):
             try:
                 root = run.solve(u)
             except NoConvergence:
@@ -121,12 +121,16 @@ def has_energy(model: Equations) -> bool:
 
 def _downward(H: Any, g: Array, mu: float) -> tuple[Array | None, float]:
     """The step -(H + mu)^{-1} g and the fall of energy it promises, if H + mu is positive definite."""
-    shift = factor(shifted(H, mu))
-    known = shift.inertia()
-    if known is None or known.negative or known.unclear:
+    shift = shifted(H, mu)
+    if not _is_positive(shift):
         return None, 0.0
-    step = shift.solve(-g)
+    step = solve(shift, -g)
     return (step, float(-g @ step) / 2) if np.isfinite(step).all() else (None, 0.0)
+
+
+def _is_positive(matrix: Any) -> bool:
+    known = inertia_of(matrix)
+    return known is not None and known.negative == known.unclear == 0
 
 
 def _energy(model: Equations) -> Any:

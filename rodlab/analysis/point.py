@@ -9,7 +9,7 @@ import numpy as np
 from rodlab.analysis.equations import Equations, jacobian, second_variation
 from rodlab.analysis.newton import NewtonStep
 from rodlab.numerics.arrays import EPS, Array
-from rodlab.numerics.factor import factor, largest_change, shifted
+from rodlab.numerics.factor import factor, inertia_of, largest_change
 from rodlab.numerics.inertia import Inertia, Symmetric
 
 
@@ -114,16 +114,7 @@ class Point:
         slack = 2 * self.remaining_angle * change
         if not np.isfinite(slack):
             return Inertia(0, self.u.size, 0)
-        if hasattr(matrix, "inertia"):
-            structured: Inertia = matrix.inertia(slack)
-            return structured
-        known = factor(matrix).inertia()
-        if known is None or known.unclear or slack == 0:
-            return known
-        least, most = (factor(shifted(matrix, side * slack)).inertia() for side in (1, -1))
-        assert least is not None
-        assert most is not None
-        return Inertia(least.negative, most.negative + most.unclear - least.negative, most.positive)
+        return inertia_of(matrix, slack)
 
     def _lipschitz_seen(self, matrix: Any) -> float:
         """Change of the second variation a short way off, per unit of angle: where no bound is known, ten times that."""
@@ -159,7 +150,7 @@ class Point:
             return left
         J = jacobian(self.equations, self.u, self.lam)
         with np.errstate(all="ignore"):
-            return left + float(np.abs(factor(J).solve(self._noise(J))).max())
+            return left + float(np.abs(factor(J).solve(self._noise)).max())
 
     @cached_property
     def error(self) -> float:
@@ -178,14 +169,16 @@ class Point:
             if not np.isfinite(v).all():
                 v = np.full_like(unit, np.finfo(float).max)
             own = getattr(self.equations, "rounding", None)
-            rounding = float(own(self.u, self.lam, v) if own is not None else np.abs(v) @ self._noise(J))
+            rounding = float(own(self.u, self.lam, v) if own is not None else np.abs(v) @ self._noise)
             rounding += 2 * abs(float(v @ F))  # what the residual still asks for, doubled for what is not linear
         total = self.remaining + EPS * abs(float(self.u[-1])) + (rounding if np.isfinite(rounding) else np.inf)
         return total if total == 0 or self.inertia is None or self.inertia.verified else np.inf
 
-    def _noise(self, J: Any) -> Array:
+    @cached_property
+    def _noise(self) -> Array:
         """Rounding of the residual, entry by entry: eps |J| |u|, and how far from linear it is over a few units of rounding."""
-        F, rng = np.asarray(self.equations.residual(self.u, self.lam)), np.random.default_rng(0)
+        J, rng = jacobian(self.equations, self.u, self.lam), np.random.default_rng(0)
+        F = np.asarray(self.equations.residual(self.u, self.lam))
         noise = EPS * (abs(J) @ np.abs(self.u) + np.abs(F))
         for _ in range(8):
             step = self.u * (1 + 1e4 * EPS * rng.uniform(-1, 1, self.u.size)) - self.u

@@ -58,6 +58,24 @@ def solve(matrix: Any, b: Array) -> Array:
     return factor(matrix).solve(b)
 
 
+def inertia_of(matrix: Any, slack: float = 0.0) -> Inertia | None:
+    """Signs of the eigenvalues of every matrix within slack of this one, of any kind; None where it is not symmetric.
+
+    >>> inertia_of(np.diag([1.0, -1.0, 1e-3]), slack=0.01)
+    Inertia(negative=1, unclear=1, positive=1)
+    """
+    if hasattr(matrix, "inertia"):
+        structured: Inertia = matrix.inertia(slack)
+        return structured
+    known = factor(matrix).inertia()
+    if known is None or known.unclear or slack == 0:
+        return known
+    least, most = (factor(shifted(matrix, side * slack)).inertia() for side in (1, -1))
+    assert least is not None
+    assert most is not None
+    return Inertia(least.negative, most.negative + most.unclear - least.negative, most.positive)
+
+
 def shifted(matrix: Any, mu: float) -> Any:
     """A + mu I, of the same kind as A.
 
