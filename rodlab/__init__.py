@@ -5,6 +5,8 @@
     rl.buckling(strut, 3).loads
     p = rl.equilibrium(strut, lam=5.0, guess=lambda s: s)
     p.tip_angle, p.error, p.index, p.energy
+    b = rl.follow(rl.equilibrium(strut, 0.0), to=30.0); b.points, b.events
+    starts = rl.switch(b.events[0])
 
 Names are imported when they are first used: `import rodlab` brings in no other package.
 """
@@ -13,11 +15,17 @@ from rodlab.version import __version__ as __version__
 
 TYPE_CHECKING = False  # what type checkers take for true; importing typing would double the time
 if TYPE_CHECKING:
+    from rodlab.analysis.continuation import branch
     from rodlab.analysis.downhill import steepest_descent
     from rodlab.analysis.equations import Equations
     from rodlab.analysis.equilibrium import equilibrium
+    from rodlab.analysis.events import Event, branch_point, fold
+    from rodlab.analysis.follow import Branch, follow
     from rodlab.analysis.newton import Newton, NoConvergence
     from rodlab.analysis.point import Point, Shape
+    from rodlab.analysis.switching import switch
+    from rodlab.analysis.vary import vary
+    from rodlab.lab.saved import read
     from rodlab.mechanics.buckling import Buckling, buckling, buckling_loads
     from rodlab.mechanics.convexity import uniqueness
     from rodlab.mechanics.strut import Strut
@@ -28,8 +36,10 @@ if TYPE_CHECKING:
 
 _HOME = {
     "Bordered": "numerics.bordered",
+    "Branch": "analysis.follow",
     "Buckling": "mechanics.buckling",
     "Equations": "analysis.equations",
+    "Event": "analysis.events",
     "Newton": "analysis.newton",
     "NoConvergence": "analysis.newton",
     "Point": "analysis.point",
@@ -37,22 +47,30 @@ _HOME = {
     "Strut": "mechanics.strut",
     "Term": "mechanics.terms",
     "Tridiagonal": "numerics.tridiagonal",
+    "branch": "analysis.continuation",
+    "branch_point": "analysis.events",
     "buckling": "mechanics.buckling",
     "buckling_loads": "mechanics.buckling",
     "end_torque": "mechanics.terms",
     "equilibrium": "analysis.equilibrium",
     "factor": "numerics.factor",
+    "fold": "analysis.events",
+    "follow": "analysis.follow",
     "foundation": "mechanics.terms",
+    "read": "lab.saved",
     "self_weight": "mechanics.terms",
     "steepest_descent": "analysis.downhill",
+    "switch": "analysis.switching",
     "term": "mechanics.terms",
     "uniqueness": "mechanics.convexity",
+    "vary": "analysis.vary",
 }
 
 __all__ = [  # the same names; a test compares
-    "Bordered", "Buckling", "Equations", "Newton", "NoConvergence", "Point", "Shape", "Strut", "Term", "Tridiagonal",
-    "buckling", "buckling_loads", "end_torque", "equilibrium", "factor", "foundation", "self_weight",
-    "steepest_descent", "term", "uniqueness",
+    "Bordered", "Branch", "Buckling", "Equations", "Event", "Newton", "NoConvergence", "Point", "Shape",
+    "Strut", "Term", "Tridiagonal", "branch", "branch_point", "buckling", "buckling_loads", "end_torque",
+    "equilibrium", "factor", "fold", "follow", "foundation", "read", "self_weight", "steepest_descent",
+    "switch", "term", "uniqueness", "vary",
 ]  # fmt: skip
 
 

@@ -4,10 +4,17 @@ Four methods suffice. What more a model knows it tells by further members, each 
 
     measures          name -> function of (u, lam)             a point answers for the model: tip_angle, height, energy
     second_variation  symmetric matrix at (u, lam)             index and nullity (else the Jacobian, where symmetric)
-    lipschitz         bound on the change of the Jacobian      index of the exact solution, not of the computed one
+    lipschitz         bounds on the change of the derivatives  a step is proved; the index is that of the exact solution
+    embedding         max |w|^2 <= a w.Jw + b w.w              longer steps are proved
     start             u from a guess, None for the natural one
     nodes, shape      s, phi and x, z of one shape
     rounding          bound on v . (computed residual - exact)  the error of a point
+    recipe            plain data that make it again             a saved branch can be read with its model
+    vary              (name, lam) -> the same model             another parameter in the load's place
+
+lipschitz(u, lam) returns a function of (du, dlam) that bounds, for all |u' - u| <= du entrywise and |lam' - lam| <= dlam, the
+change of the Jacobian by a diagonal d, -d <= J' - J <= d, and that of d_lam entrywise; numbers or shape (n,), convex. The
+residual must be at most linear in lam. embedding(lam) returns (a, b).
 """
 
 from typing import Any, Protocol, runtime_checkable

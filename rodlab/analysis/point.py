@@ -1,5 +1,6 @@
 """One equilibrium: the unknowns at a load, and answers computed when they are asked for."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -24,7 +25,9 @@ class Shape(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Point:
-    """A solution u of F(u, lam) = 0. What its equations cannot answer raises `AttributeError` in one sentence.
+    """A solution u of F(u, lam) = 0; on a branch it knows its unit `tangent` (du, dlam), shape (n + 1,).
+
+    What its equations cannot answer raises `AttributeError` in one sentence.
 
     >>> from rodlab.mechanics.strut import Strut
     >>> p = Point(Strut(n=2), 1.0, np.zeros(2))
@@ -37,9 +40,25 @@ class Point:
     u: Array
     newton: tuple[NewtonStep, ...] = ()
     remaining: float = field(default=0.0)
+    tangent: Array | None = None
+    accepted: str = ""
+    known_inertia: Inertia | None = None
+    recorded: Mapping[str, float] | None = None
+
+    @property
+    def proved(self) -> bool:
+        """True when the step to this point was proved to stay on its branch."""
+        return self.accepted == "proved"
+
+    @property
+    def checked(self) -> bool:
+        """True when the step to this point was checked, by every test short of a proof."""
+        return self.accepted == "checked"
 
     def __repr__(self) -> str:
         tip = f", tip_angle={self.tip_angle:.6g}" if "tip_angle" in getattr(self.equations, "measures", {}) else ""
+        if self.recorded is not None:
+            return f"Point(lam={self.lam:.6g}, index={self.index}, recorded)"
         index = f"{self.index}" if self.index_verified else f"{self.index} (not verified)"
         return f"Point(lam={self.lam:.6g}{tip}, index={index}, error={self.error:.1e})"
 
@@ -48,6 +67,8 @@ class Point:
     def measure(self, name: str) -> float:
         """The measure `name` of the equations at this point."""
         known = getattr(self.equations, "measures", {})
+        if self.recorded is not None and name in self.recorded and name not in known:
+            return self.recorded[name]
         if name not in known:
             raise AttributeError(f"{type(self.equations).__name__} has no measure {name}; it has {sorted(known)}")
         return float(known[name](self.u, self.lam))
@@ -106,12 +127,14 @@ class Point:
     @cached_property
     def inertia(self) -> Inertia | None:
         """Signs of the eigenvalues of the second variation; None where there is none (no symmetric Jacobian)."""
+        if self.known_inertia is not None:  # shown for every solution near by, the exact one among them
+            return self.known_inertia
         matrix = second_variation(self.equations, self.u, self.lam)
         bound = getattr(self.equations, "lipschitz", None)
-        change = np.inf if bound is None else bound(self.lam)
-        if not np.isfinite(change):
-            change = self._lipschitz_seen(matrix)
-        slack = 2 * self.remaining_angle * change
+        off = 2 * self.remaining_angle
+        slack = np.inf if bound is None or not np.isfinite(off) else float(np.max(bound(self.u, self.lam)(off, 0.0)[0]))
+        if not np.isfinite(slack):
+            slack = off * self._lipschitz_seen(matrix)
         if not np.isfinite(slack):
             return Inertia(0, self.u.size, 0)
         return inertia_of(matrix, slack)

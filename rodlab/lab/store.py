@@ -1,39 +1,14 @@
-"""Files written whole or not at all, and the frame that every JSON answer has."""
+"""What answers look like in a file: the frame that every JSON answer has, tidy CSV."""
 
-import contextlib
 import csv
 import io
 import json
-import os
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from rodlab.version import __version__
 
 SCHEMA = 1
-
-
-def write_whole(path: Path, content: bytes | str) -> Path:
-    """Write a file beside its place and move it there: a reader, or a kill, sees the old file or the new one.
-
-    Raises `ValueError` in one sentence when it cannot be written.
-    """
-    data = content.encode() if isinstance(content, str) else content
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with temporary.open("wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        temporary.replace(path)
-    except OSError as error:
-        raise ValueError(f"{path} cannot be written: {error.strerror or error}") from None
-    finally:
-        with contextlib.suppress(OSError):  # the folder itself may be missing
-            temporary.unlink(missing_ok=True)
-    return path
 
 
 def framed(verb: str, seconds: float, content: Mapping[str, Any]) -> dict[str, Any]:

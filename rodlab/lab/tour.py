@@ -10,10 +10,11 @@ from typing import Any
 
 from tqdm import tqdm
 
+from rodlab.files import write_whole
 from rodlab.lab.buckled import Found, buckled, straight
 from rodlab.lab.loads import Extrapolated, Load, extrapolate, loads_against_n
 from rodlab.lab.picture import loads_picture, png, shapes_picture
-from rodlab.lab.store import as_csv, as_json, framed, write_whole
+from rodlab.lab.store import as_csv, as_json, framed
 from rodlab.lab.table import known_to, small, table
 from rodlab.mechanics.buckling import Buckling, buckling
 from rodlab.mechanics.joints import RULES

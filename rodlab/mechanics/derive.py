@@ -8,6 +8,7 @@ With e(a, b, x, z; lam) the energy of link i (a = phi_{i-1}, b = phi_i, and x, z
     c = -(e_b + e_a)_b on angle b,  c_below = -(e_a + e_b)_a on angle a
     e_x, e_z               force on the joint             ... + the moments of all forces above
     e_xx, e_xz, e_zz       its change with the place
+    m_p, f_p, ...          their change with each parameter p, which may be followed in the load's place
 
 Writing the Hessian by its couplings and rests, as symbols, is what keeps its small eigenvalues accurate: nothing
 large is cancelled in floating point. `python -m rodlab.mechanics.derive` writes `standard.py`.
@@ -39,6 +40,7 @@ class LinkDerivation:
     moments_lam: tuple[Expr, Expr]
     forces: tuple[Expr, Expr]
     hardening: tuple[Expr, Expr, Expr]
+    by: dict[str, tuple[Expr, Expr, Expr, Expr]]  # derivatives of (m, f, e_x, e_z) in each parameter
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -82,6 +84,11 @@ def derive(terms: Sequence[Term], *, weighted: bool) -> LinkDerivation:
         moments_lam=(tidy(m.diff(lam)), tidy(f.diff(lam))),
         forces=(tidy(e.diff(x)), tidy(e.diff(z))),
         hardening=(tidy(e.diff(x, 2)), tidy(e.diff(x, z)), tidy(e.diff(z, 2))),
+        by={
+            s.name: (tidy(m.diff(s)), tidy(f.diff(s)), tidy(e.diff(x, s)), tidy(e.diff(z, s)))
+            for s in sorted(e.free_symbols, key=str)
+            if s.name not in (*ARGUMENTS, "h", "w")
+        },
     )
 
 
@@ -132,8 +139,10 @@ def _class_source(d: LinkDerivation) -> str:
         _method("stiffness", angles, d.stiffness),
         _method("moments_lam", angles, d.moments_lam),
     ]
+    methods += [_method(f"moments_{name}", angles, known[:2]) for name, known in d.by.items()]
     if places:
         methods += [_method("forces", joints, d.forces), _method("hardening", joints, d.hardening)]
+        methods += [_method(f"forces_{name}", joints, known[2:]) for name, known in d.by.items()]
     head = (
         f"class {d.name}:\n"
         f'    """e = {d.energy}"""\n\n'

@@ -45,6 +45,11 @@ class Joints:
         return np.ones(self.n) if self.weights is None else self.weights
 
     @property
+    def most_weight(self) -> float:
+        """The largest weight."""
+        return 1.0 if self.weights is None else float(self.weights.max())
+
+    @property
     def last_weight(self) -> float:
         """w_n; the clamp's link has the weight 1 - w_n."""
         return 1.0 if self.weights is None else float(self.weights[-1])

@@ -14,6 +14,7 @@ class Kernel(Protocol):
 
     `energy`, `moments` (m, f), `stiffness` (k, c, c_below), `moments_lam` (dm/dlam, df/dlam); where `places`,
     also `forces` (e_x, e_z) and, where `hardens`, `hardening` (e_xx, e_xz, e_zz), of the joints' x, z (n,).
+    `moments_k`, `forces_q`, ...: the same differentiated in a parameter.
     """
 
     parameters: tuple[str, ...]

@@ -34,6 +34,10 @@ class bending:
     def moments_lam(a: Array, b: Array, lam: float, k: Value) -> tuple[Value, Value]:
         return 0.0, 0.0
 
+    @staticmethod
+    def moments_k(a: Array, b: Array, lam: float, k: Value) -> tuple[Value, Value]:
+        return b - a, 0.0
+
 
 class bending_with_rest:
     """e = k*(-a + b - beta)**2/2"""
@@ -57,6 +61,14 @@ class bending_with_rest:
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, beta: Value, k: Value) -> tuple[Value, Value]:
         return 0.0, 0.0
+
+    @staticmethod
+    def moments_beta(a: Array, b: Array, lam: float, beta: Value, k: Value) -> tuple[Value, Value]:
+        return -k, 0.0
+
+    @staticmethod
+    def moments_k(a: Array, b: Array, lam: float, beta: Value, k: Value) -> tuple[Value, Value]:
+        return b - a - beta, 0.0
 
 
 class bending_and_end_load:
@@ -82,6 +94,10 @@ class bending_and_end_load:
     def moments_lam(a: Array, b: Array, lam: float, h: Value, k: Value) -> tuple[Value, Value]:
         return 0.0, -h*sin(b)
 
+    @staticmethod
+    def moments_k(a: Array, b: Array, lam: float, h: Value, k: Value) -> tuple[Value, Value]:
+        return b - a, 0.0
+
 
 class bending_and_end_load_weighted:
     """e = h*lam*w*cos(b) + k*(-a + b)**2/2"""
@@ -105,6 +121,10 @@ class bending_and_end_load_weighted:
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
         return 0.0, -h*w*sin(b)
+
+    @staticmethod
+    def moments_k(a: Array, b: Array, lam: float, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
+        return b - a, 0.0
 
 
 class bending_with_rest_and_end_load:
@@ -130,6 +150,14 @@ class bending_with_rest_and_end_load:
     def moments_lam(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
         return 0.0, -h*sin(b)
 
+    @staticmethod
+    def moments_beta(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
+        return -k, 0.0
+
+    @staticmethod
+    def moments_k(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
+        return b - a - beta, 0.0
+
 
 class bending_with_rest_and_end_load_weighted:
     """e = h*lam*w*cos(b) + k*(-a + b - beta)**2/2"""
@@ -153,6 +181,14 @@ class bending_with_rest_and_end_load_weighted:
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
         return 0.0, -h*w*sin(b)
+
+    @staticmethod
+    def moments_beta(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
+        return -k, 0.0
+
+    @staticmethod
+    def moments_k(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
+        return b - a - beta, 0.0
 
 
 KERNELS: dict[str, Any] = {

@@ -8,17 +8,21 @@ Cost of every method: O(n), but for the Hessian with a term quadratic in the pla
 """
 
 from collections.abc import Callable, Sequence
+from copy import copy
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rodlab.mechanics import bounds
 from rodlab.mechanics import joints as joints_of
 from rodlab.mechanics.assembly import balance, difference_form, full
 from rodlab.mechanics.joints import Joints
 from rodlab.mechanics.kernels import Kernel, kernel
 from rodlab.mechanics.places import Places
 from rodlab.mechanics.profile import Profile
+from rodlab.mechanics.recipe import kept, recipe_of
 from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term, checked
 from rodlab.numerics.arrays import EPS, Array, number, vector
 from rodlab.numerics.difference import DifferenceForm, Springs
@@ -27,6 +31,7 @@ from rodlab.numerics.tridiagonal import Tridiagonal
 
 if TYPE_CHECKING:
     from rodlab.mechanics.derivation import Derivation
+    from rodlab.mechanics.varied import VariedStrut
 
 FULL_LIMIT = 4000
 
@@ -59,7 +64,7 @@ class Strut:
     ) -> None:
         if not isinstance(ends, (tuple, list)) or tuple(ends) != ("clamped", "free"):
             raise ValueError(f"ends must be ('clamped', 'free'); they are {ends!r}")
-        self._said = f"n={n!r}, K={K!r}, u_hat={u_hat!r}, rule={rule!r}" + (f", phi0={phi0!r}" if phi0 else "")
+        self.arguments = kept({"n": n, "K": K, "u_hat": u_hat, "rule": rule, "phi0": phi0, "breaks": breaks, "terms": terms})
         self._build(joints_of.by_rule(n, K, u_hat, rule, phi0, breaks), terms, breaks)
 
     @classmethod
@@ -80,17 +85,46 @@ class Strut:
         """
         strut = cls.__new__(cls)
         joints = joints_of.given(k, beta, h, beta0, weights)
-        strut._said = f"n={joints.n}, from joints"
+        strut.arguments = kept({"k": k, "beta": beta, "h": h, "beta0": beta0, "weights": weights, "terms": terms})
         strut._build(joints, terms, ())
         return strut
+
+    def replace(self, **changes: Any) -> "Strut":
+        """The same strut with other arguments, or other parameters of its terms.
+
+        >>> Strut(n=3).replace(u_hat=0.5, rule="trapezoid")
+        Strut(n=3, K=1.0, u_hat=0.5, rule='trapezoid')
+        """
+        given, terms = dict(self.arguments), list(self.terms)
+        for name, value in changes.items():
+            owner = next((i for i, term in enumerate(terms) if name in term.parameters), None)
+            if owner is not None:
+                terms[owner] = replace(terms[owner], parameters={**terms[owner].parameters, name: value})
+            elif name in given:
+                given[name] = value
+            else:
+                known = [*given, *(p for term in terms for p in term.parameters)]
+                raise ValueError(f"a strut has no argument {name}; it has {', '.join(known)}")
+        if "terms" not in changes:
+            given["terms"] = tuple(terms)
+        return Strut(**given) if "n" in given else Strut.from_joints(**given)
+
+    @property
+    def recipe(self) -> dict[str, Any] | None:
+        """What to write into a file so that `rodlab.mechanics.recipe.build` makes this strut again; None for functions."""
+        return recipe_of(self.arguments, self.terms)
+
+    def vary(self, name: str, lam: float) -> "VariedStrut":
+        """The same strut at the load lam, with its parameter `name` in the place of the load; see `rodlab.vary`."""
+        from rodlab.mechanics.varied import VariedStrut
+
+        return VariedStrut(self, name, lam)
 
     def _build(self, joints: Joints, terms: Sequence[Term], breaks: Sequence[float]) -> None:
         self.joints = joints
         self.terms = checked(terms)
         self.springs = Springs(joints.k)
-        bend = BENDING_WITH_REST if joints.curved else BENDING
-        self._loaded = (bend, END_LOAD, *self.terms)
-        self._unloaded = (bend, *self.terms)
+        self._bend(curved=joints.curved)
         self.parameters: dict[str, Any] = {"k": joints.k, "beta": joints.beta, "h": joints.h, "w": joints.w}
         for term in self.terms:
             for name, given in term.parameters.items():
@@ -99,9 +133,31 @@ class Strut:
         if any(term.energy is not None for term in self.terms):
             self.kernel()  # what a term of one's own lacks is said at once
 
+    def _bend(self, *, curved: bool) -> None:
+        """Choose the springs' energy: without rest angles none occur in the kernel."""
+        bend = BENDING_WITH_REST if curved else BENDING
+        self._loaded = (bend, END_LOAD, *self.terms)
+        self._unloaded = (bend, *self.terms)
+
+    def with_joints(self, joints: Joints, parameters: dict[str, Any]) -> "Strut":
+        """The same with other joints and parameters, rest angles in the kernel whether zero or not; what is derived is kept."""
+        other = copy(self)
+        other.joints, other.parameters = joints, parameters
+        if joints.k is not self.joints.k:
+            other.springs = Springs(joints.k)
+        other._bend(curved=True)
+        for name in ("places", "_with_load", "_without_load", "carried"):
+            other.__dict__.pop(name, None)
+        return other
+
     def __repr__(self) -> str:
-        terms = f", terms={self.terms!r}" if self.terms else ""
-        return f"Strut({self._said}{terms})"
+        given = self.arguments
+        if "n" not in given:
+            said = f"n={self.n}, from joints"
+        else:
+            said = ", ".join(f"{name}={given[name]!r}" for name in ("n", "K", "u_hat", "rule"))
+            said += f", phi0={given['phi0']!r}" if given["phi0"] else ""
+        return f"Strut({said}{f', terms={self.terms!r}' if self.terms else ''})"
 
     @property
     def n(self) -> int:
@@ -112,73 +168,79 @@ class Strut:
 
     def kernel(self, lam: float = 1.0) -> Kernel:
         """The compiled derivatives of one link's energy; at lam = 0 the load does not occur in it."""
-        return kernel(self._loaded if lam else self._unloaded, weighted=self.joints.weights is not None)
+        return self._with_load if lam else self._without_load
+
+    @cached_property
+    def _with_load(self) -> Kernel:
+        return kernel(self._loaded, weighted=self.joints.weights is not None)
+
+    @cached_property
+    def _without_load(self) -> Kernel:
+        return kernel(self._unloaded, weighted=self.joints.weights is not None)
 
     def energy(self, phi: Any, lam: float) -> Any:
         """V(phi; lam): a float, or complex for complex angles. `ValueError` unless phi (n,) and lam are finite."""
         phi, lam = self._state(phi, lam)
-        link, below = self.kernel(lam), self._below(phi)
+        link, below = self.kernel(lam), self.below(phi)
         places = self.places.of(phi) if link.places else ()
-        e = link.energy(below, phi, *places, lam, **self._given(link))
+        e = link.energy(below, phi, *places, lam, **self.given(link))
         clamp = lam * self.joints.h * (1 - self.joints.last_weight) * np.cos(self.joints.phi0) if lam else 0.0
         V = np.sum(e) + clamp
         return complex(V) if np.iscomplexobj(V) else float(V)
 
     def gradient(self, phi: Any, lam: float) -> Array:
         """dV/dphi, shape (n,): the balance of moments on each link. `ValueError` unless phi (n,) and lam are finite."""
-        phi, lam = self._state(phi, lam)
-        link = self.kernel(lam)
-        given = self._given(link)
-        m, f = link.moments(self._below(phi), phi, lam, **given)
-        g = balance(m, f, phi)
-        if link.places:
-            g += self.places.moments(phi, *link.forces(*self.places.of(phi), **given))
-        return g
+        return self.residual(*self._state(phi, lam))
 
     def hessian(self, phi: Any, lam: float) -> DifferenceForm | Tridiagonal | Full:
         """d2V/dphi2: `.diagonal`, `.off_diagonal`, `.toarray()`, `.index`, `.solve(b)`; symmetric.
 
         Tridiagonal, but full with a term quadratic in the place (a foundation), which more than 4000 joints cannot have.
         """
+        return self.jacobian(*self._state(phi, lam))
+
+    def d_lam(self, phi: Any, lam: float) -> Array:
+        """d(gradient)/dlam, shape (n,)."""
         phi, lam = self._state(phi, lam)
+        link = self.kernel()
+        m, f = link.moments_lam(self.below(phi), phi, lam, **self.given(link))
+        return balance(m, f, phi)
+
+    # --- the equations F(u, lam) = 0 that a solver sees -------------------------------------------------------
+
+    def residual(self, u: Array, lam: float) -> Array:
+        """The gradient, of arguments that are not looked at."""
         link = self.kernel(lam)
-        given = self._given(link)
-        k, c_above, c_below = link.stiffness(self._below(phi), phi, lam, **given)
+        given = self.given(link)
+        m, f = link.moments(self.below(u), u, lam, **given)
+        g = balance(m, f, u)
+        if link.places:
+            g += self.places.moments(u, *link.forces(*self.places.of(u), **given))
+        return g
+
+    def jacobian(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Full:
+        """The Hessian, of arguments that are not looked at."""
+        link = self.kernel(lam)
+        given = self.given(link)
+        k, c_above, c_below = link.stiffness(self.below(u), u, lam, **given)
         c, spread = full(c_above, self.n), 0.0
         if np.ndim(c_below) or c_below:
             c[:-1] += full(c_below, self.n)[1:]
         if link.places:
-            forces = link.forces(*self.places.of(phi), **given)
-            c += self.places.softening(phi, *forces)
+            forces = link.forces(*self.places.of(u), **given)
+            c += self.places.softening(u, *forces)
             spread = 2 * self.n * EPS * float(self.places.size(*forces).max())  # of their cumulative sums
         local = difference_form(self.springs if k is self.joints.k else full(k, self.n), c, spread)
         if not link.hardens:
             return local
         if self.n > FULL_LIMIT:
             raise ValueError(f"n must be at most {FULL_LIMIT} where a term couples all angles (a foundation); it is {self.n}")
-        x, z = self.places.of(phi)
-        return Full(local.toarray() + self.places.hardening(phi, *link.hardening(x, z, **given)))
-
-    def d_lam(self, phi: Any, lam: float) -> Array:
-        """d(gradient)/dlam, shape (n,)."""
-        phi, lam = self._state(phi, lam)
-        link = self.kernel()
-        m, f = link.moments_lam(self._below(phi), phi, lam, **self._given(link))
-        return balance(m, f, phi)
-
-    # --- the equations F(u, lam) = 0 that a solver sees -------------------------------------------------------
-
-    def residual(self, u: Array, lam: float) -> Array:
-        """The gradient."""
-        return self.gradient(u, lam)
-
-    def jacobian(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Full:
-        """The Hessian."""
-        return self.hessian(u, lam)
+        x, z = self.places.of(u)
+        return Full(local.toarray() + self.places.hardening(u, *link.hardening(x, z, **given)))
 
     def second_variation(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Full:
         """The Hessian, whose negative eigenvalues are the index."""
-        return self.hessian(u, lam)
+        return self.jacobian(u, lam)
 
     def inner(self, u: Array, v: Array) -> float:
         """h sum u_i v_i: the integral of u v over the length, so that a step means the same for every n."""
@@ -201,36 +263,23 @@ class Strut:
             "energy": self.energy,
         }
 
-    def lipschitz(self, lam: float) -> float:
-        """Bound on the change of the Hessian, in any entry, per unit of change of the angles; infinite if none is known.
+    def lipschitz(self, u: Array, lam: float) -> bounds.Bound:
+        """How far Jacobian and d_lam may be from those at (u, lam) near by; see `rodlab.mechanics.bounds`."""
+        return bounds.lipschitz(self, u, lam)
 
-        Each entry of the load's Hessian is at most |lam| h w times a sine or cosine of one angle; that of a dead force
-        adds what is carried. A foundation, or a term of one's own, has no bound here.
-        """
-        bound = abs(lam) * self.joints.h * float(self.joints.w.max())
-        if any(term.energy is not None for term in self.terms) or self.kernel().hardens:
-            return np.inf
-        link, zero = self.kernel(), np.zeros(self.n)
-        if link.places:
-            bound += float(self.places.size(*link.forces(zero, zero, **self._given(link))).max())
-        return bound
+    def embedding(self, lam: float) -> tuple[float, float]:
+        """(a, b) with max |w|^2 <= a w.Jw + b w.w for the Jacobian J at any angles and this load."""
+        return bounds.embedding(self, lam)
 
     def rounding(self, phi: Array, lam: float, v: Array) -> float:
-        """Bound on |v . (computed gradient - exact gradient)|: how far rounding moves a functional of the solution.
+        """Bound on |v . (computed gradient - exact gradient)|: how far rounding moves a functional of the solution."""
+        return bounds.rounding(self, phi, lam, v)
 
-        The moments enter as differences, so their relative rounding counts with the variation of v, not with n.
-        """
-        link = self.kernel(lam)
-        given = self._given(link)
-        below = self._below(phi)
-        m, f = link.moments(below, phi, lam, **given)
-        size = np.abs(m) + 2 * self.joints.k * np.abs(phi - below)
-        moments = np.abs(np.diff(v, prepend=0.0)) @ size
-        loads = np.abs(v) @ (2 * np.abs(full(f, self.n)) + np.abs(balance(m, f, phi)))
-        if link.places:
-            N = link.forces(*self.places.of(phi), **given)
-            loads += self.n * float(np.abs(v) @ self.places.size(*N))
-        return float(4 * EPS * (moments + loads))
+    @cached_property
+    def carried(self) -> Array | None:
+        """Bound on the moments of the dead forces of terms, shape (n,); None where no term uses the place."""
+        link, zero = self.kernel(), np.zeros(self.n)
+        return self.places.size(*link.forces(zero, zero, **self.given(link))) if link.places else None
 
     # --- shape --------------------------------------------------------------------------------------------------
 
@@ -280,11 +329,13 @@ class Strut:
     def _state(self, phi: Any, lam: Any) -> tuple[Array, float]:
         return vector("phi", phi, self.n, complex_too=True), number("lam", lam)
 
-    def _below(self, phi: Array) -> Array:
+    def below(self, phi: Array) -> Array:
+        """phi_{i-1}: the angle under each joint, shape (n,)."""
         below = np.empty_like(phi)
         below[0] = self.joints.phi0
         below[1:] = phi[:-1]
         return below
 
-    def _given(self, link: Kernel) -> dict[str, Any]:
+    def given(self, link: Kernel) -> dict[str, Any]:
+        """The parameters that a kernel asks for."""
         return {name: self.parameters[name] for name in link.parameters}

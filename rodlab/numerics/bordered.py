@@ -17,8 +17,13 @@ from rodlab.numerics.arrays import EPS, Array, vector
 from rodlab.numerics.factor import Solves
 
 
-class _OneBorder:
-    """Mixed block elimination for a border of width one; itself a factored matrix of order n + 1."""
+class OneBorder:
+    """Mixed block elimination for a border of width one, [[A, b], [c^T, d]]; itself a factored matrix of order n + 1.
+
+    >>> from rodlab.numerics.factor import factor
+    >>> OneBorder(factor(np.diag([1.0, 0.0])), np.array([0.0, 1.0]), np.array([0.0, 1.0]), 0.0).solve(np.array([1.0, 2.0, 3.0]))
+    array([1., 3., 2.])
+    """
 
     def __init__(self, inner: Solves, b: Array, c: Array, d: float) -> None:
         self.inner, self.b, self.c, self.d = inner, b, c, d
@@ -27,17 +32,22 @@ class _OneBorder:
         self.left = _nonzero(float(d - self.w @ b))
 
     def solve(self, fg: Array, /) -> Array:
+        """(x, y) with A x + b y = f, c.x + d y = g; once, without refinement."""
         return self._solve(fg, self.inner.solve, self.b, self.c, self.v, self.w, self.right, self.left)
 
     def solve_transposed(self, fg: Array, /) -> Array:
+        """The same with the transposed matrix."""
         return self._solve(fg, self.inner.solve_transposed, self.c, self.b, self.w, self.v, self.left, self.right)
 
     def _solve(self, fg: Array, inner: Any, b: Array, c: Array, v: Array, w: Array, right: float, left: float) -> Array:
         f, g = fg[:-1], fg[-1]
-        y1 = (g - w @ f) / left
+        y1 = (g - w @ f) / left  # the border first, by the transposed problem
         x1 = inner(f - b * y1)
         y2 = (g - self.d * y1 - c @ x1) / right
-        return np.append(x1 - v * y2, y1 + y2)
+        x = np.empty_like(fg)
+        np.subtract(x1, v * y2, out=x[:-1])
+        x[-1] = y1 + y2
+        return x
 
 
 class Bordered:
@@ -60,7 +70,7 @@ class Bordered:
         self.matrix, self.B, self.C, self.D = matrix, B, C, D
         solver: Solves = factor
         for j in range(D.shape[0]):
-            solver = _OneBorder(solver, np.append(B[:, j], D[:j, j]), np.append(C[:, j], D[j, :j]), float(D[j, j]))
+            solver = OneBorder(solver, np.append(B[:, j], D[:j, j]), np.append(C[:, j], D[j, :j]), float(D[j, j]))
         self._solver = solver
 
     def solve(self, f: Array, g: Array) -> tuple[Array, Array]:

@@ -58,9 +58,14 @@ class Springs:
         return np.asarray(1.0 / self.k)
 
     @cached_property
+    def total_compliance(self) -> float:
+        """Sum of 1 / k_i."""
+        return float(self.compliance.sum())
+
+    @cached_property
     def summing_hurts(self) -> bool:
         """True when rounding of k_i + k_{i+1} matters to the whole chain: eps sum(k) sum(1/k) above 1/1000."""
-        return bool(EPS * self.k.sum() * self.compliance.sum() > 1e-3)
+        return bool(EPS * self.k.sum() * self.total_compliance > 1e-3)
 
 
 class DifferenceForm(Symmetric):
@@ -85,7 +90,7 @@ class DifferenceForm(Symmetric):
     @cached_property
     def summed(self) -> Tridiagonal:
         """The same matrix by its entries."""
-        return Tridiagonal(self.springs.diagonal - self.c, self.springs.off_diagonal)
+        return Tridiagonal.of(self.springs.diagonal - self.c, self.springs.off_diagonal)
 
     @property
     def diagonal(self) -> Array:
@@ -110,6 +115,12 @@ class DifferenceForm(Symmetric):
         out[:-1] -= moment[1:]
         return np.asarray(out)
 
+    def quadratic(self, y: Array) -> tuple[float, float]:
+        """y . A y = sum k (D y)^2 - sum c y^2, and a bound on its rounding: of the two sums, not of the entries."""
+        stretched, pressed = self.springs.k @ np.diff(y, prepend=0.0) ** 2, self.c * y * y
+        size = float(stretched + np.abs(pressed).sum())
+        return float(stretched - pressed.sum()), 4 * EPS * size * max(1.0, np.log2(y.size)) + self.spread * float(y @ y)
+
     def solve(self, r: Array) -> Array:
         """y with A y = r, linear in n: by the entries where they keep at least three digits, else by the mixed form.
 
@@ -125,8 +136,8 @@ class DifferenceForm(Symmetric):
         """A factor for many right-hand sides, of whichever form `solve` would use."""
         return DifferenceFactor(self)
 
-    def shifted(self, mu: float) -> "DifferenceForm":
-        """A + mu I."""
+    def shifted(self, mu: Array | float) -> "DifferenceForm":
+        """A + mu I, or A + diag(mu)."""
         return DifferenceForm(self.springs, self.c - mu, self.spread)
 
     def inertia(self, slack: Array | float = 0.0) -> Inertia:
@@ -134,10 +145,25 @@ class DifferenceForm(Symmetric):
 
         The entries decide first, at half the price; what they leave unclear the mixed form may still decide.
         """
-        n = self.c.size
+        n, spread = self.c.size, self._spread(slack)
+        least, most = self._counted(spread)
+        return Inertia(least, 0, n - least) if least == most else self._mixed_inertia(spread)
+
+    def index_within(self, slack: Array | float) -> int | None:
+        """The index that all D^T k D - diag(c') with |c' - c| <= slack share, as far as the entries can tell; else None."""
+        least, most = self._counted(self._spread(slack))
+        return least if least == most else None
+
+    def _spread(self, slack: Array | float) -> Array:
         spread = np.abs(self.c)
         spread *= 4 * EPS
-        spread += slack + self.spread
+        spread += slack
+        if self.spread:
+            spread += self.spread
+        return spread
+
+    def _counted(self, spread: Array) -> tuple[int, int]:
+        """Least and most negative eigenvalues with c within the spread, by the entries."""
         low, high = self.springs.bounds
         d, e = low - self.c, self.springs.off_diagonal.copy()
         d -= spread
@@ -147,7 +173,7 @@ class DifferenceForm(Symmetric):
             d += spread
             e[:] = self.springs.off_diagonal
             least = count_overwriting(d, e, closed=False)
-        return Inertia(least, 0, n - least) if least == most else self._mixed_inertia(spread)
+        return least, most
 
     def _mixed(self, spread: Array | float = 0.0, side: int = 0) -> Tridiagonal:
         """The mixed form, divided by a factor that gives compliances and c one size; c moved by side * spread."""
@@ -203,6 +229,11 @@ class DifferenceFactor:
     def solve_transposed(self, r: Array) -> Array:
         """y with A^T y = r: the same, A being symmetric."""
         return self.solve(r)
+
+    def sign(self) -> int:
+        """Sign of the determinant: that of the number of negative eigenvalues."""
+        known = self.inertia()
+        return 0 if known.unclear else 1 - 2 * (known.negative % 2)
 
     def inertia(self) -> Inertia:
         """Signs of the eigenvalues of A."""

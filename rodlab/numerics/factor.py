@@ -10,7 +10,7 @@ import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 from rodlab.numerics.arrays import EPS, TINY, Array, is_finite
-from rodlab.numerics.inertia import Inertia
+from rodlab.numerics.inertia import Inertia, sign_of_pivots
 
 
 class Solves(Protocol):
@@ -26,7 +26,11 @@ class Solves(Protocol):
 
 
 class Factor(Solves, Protocol):
-    """A factored matrix that also knows its inertia."""
+    """A factored matrix that also knows its inertia, or at least the sign of its determinant."""
+
+    def sign(self) -> int:
+        """Sign of the determinant; 0 where A is singular to working precision."""
+        ...
 
     def inertia(self) -> Inertia | None:
         """Signs of the eigenvalues of A; None where A is not symmetric and so has no index."""
@@ -76,8 +80,21 @@ def inertia_of(matrix: Any, slack: float = 0.0) -> Inertia | None:
     return Inertia(least.negative, most.negative + most.unclear - least.negative, most.positive)
 
 
-def shifted(matrix: Any, mu: float) -> Any:
-    """A + mu I, of the same kind as A.
+def index_within(matrix: Any, slack: Array | float) -> int | None:
+    """The index that all symmetric matrices within diag(slack) of this one share; None where they do not, or may not.
+
+    >>> index_within(np.diag([1.0, -1.0]), slack=0.5), index_within(np.diag([1.0, -1.0]), slack=1.5)
+    (1, None)
+    """
+    if hasattr(matrix, "index_within"):
+        shared: int | None = matrix.index_within(slack)
+        return shared
+    known = inertia_of(matrix, float(np.max(slack)))
+    return known.negative if known is not None and known.verified else None
+
+
+def shifted(matrix: Any, mu: Array | float) -> Any:
+    """A + mu I, or A + diag(mu), of the same kind as A.
 
     >>> shifted(np.eye(1), 2.0)
     array([[3.]])
@@ -87,7 +104,7 @@ def shifted(matrix: Any, mu: float) -> Any:
     if hasattr(matrix, "tocsc"):
         from scipy.sparse import eye_array
 
-        return matrix + mu * eye_array(matrix.shape[0])
+        return matrix + eye_array(matrix.shape[0]).multiply(mu) if np.ndim(mu) else matrix + mu * eye_array(matrix.shape[0])
     return matrix + mu * np.eye(matrix.shape[0])
 
 
@@ -123,6 +140,7 @@ class DenseFactor:
         with np.errstate(all="ignore"):
             lu, order = _quiet_lu(A)
         pivots = np.einsum("ii->i", lu)
+        self._sign = sign_of_pivots(pivots, int(np.count_nonzero(order != np.arange(order.size))))
         pivots[pivots == 0] = EPS * np.abs(A).max(initial=0.0) or TINY
         self._factors = (lu, order)
 
@@ -133,6 +151,10 @@ class DenseFactor:
     def solve_transposed(self, b: Array, /) -> Array:
         """x with A^T x = b."""
         return np.asarray(lu_solve(self._factors, b, trans=1))
+
+    def sign(self) -> int:
+        """Sign of the determinant: of the pivots, and of the exchanges of rows."""
+        return self._sign
 
     def inertia(self) -> Inertia | None:
         """Signs of the eigenvalues of A, or None where A is not symmetric."""

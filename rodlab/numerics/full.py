@@ -51,8 +51,8 @@ class Full(Symmetric):
         """L U with partial pivoting."""
         return DenseFactor(self._entries)
 
-    def shifted(self, mu: float) -> "Full":
-        """A + mu I."""
+    def shifted(self, mu: Array | float) -> "Full":
+        """A + mu I, or A + diag(mu)."""
         return Full(self._entries + mu * np.eye(self.shape[0]))
 
     def inertia(self, slack: Array | float = 0.0) -> Inertia:

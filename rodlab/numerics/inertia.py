@@ -4,7 +4,9 @@ from abc import ABC, abstractmethod
 from functools import cached_property
 from typing import NamedTuple
 
-from rodlab.numerics.arrays import Array
+import numpy as np
+
+from rodlab.numerics.arrays import EPS, Array
 
 
 class Inertia(NamedTuple):
@@ -61,3 +63,15 @@ class Symmetric(ABC):
     def index_verified(self) -> bool:
         """True when no eigenvalue is too near zero to know its sign."""
         return self._inertia.verified
+
+
+def sign_of_pivots(pivots: Array, exchanges: int) -> int:
+    """Sign of a product, zero where its least factor is lost in the rounding of the largest.
+
+    >>> sign_of_pivots(np.array([2.0, -1.0]), exchanges=1)
+    1
+    """
+    size = np.abs(pivots)
+    if size.min(initial=1.0) <= pivots.size * EPS * size.max(initial=0.0):
+        return 0
+    return -1 if (np.count_nonzero(pivots < 0) + exchanges) % 2 else 1

@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import splu
 
 from rodlab.numerics.arrays import EPS, TINY, Array, is_finite
-from rodlab.numerics.inertia import Inertia
+from rodlab.numerics.inertia import Inertia, sign_of_pivots
 
 
 class SparseFactor:
@@ -46,6 +46,11 @@ class SparseFactor:
         """x with A^T x = b."""
         return np.asarray(self._lu.solve(b, trans="T"))
 
+    def sign(self) -> int:
+        """Sign of the determinant: of the pivots, and of both permutations."""
+        exchanges = sum(_transpositions(order) for order in (self._lu.perm_r, self._lu.perm_c))
+        return sign_of_pivots(self._lu.U.diagonal(), exchanges)
+
     def inertia(self) -> Inertia | None:
         """Signs of the eigenvalues of A, or None where A is not symmetric."""
         A, n = self.matrix, self.matrix.shape[0]
@@ -55,6 +60,18 @@ class SparseFactor:
         spread = 16 * EPS * self._scale * blocks.width
         least, most = blocks.negatives(spread), blocks.negatives(-spread)
         return Inertia(least, most - least, n - most)
+
+
+def _transpositions(order: Any) -> int:
+    """Exchanges that make up a permutation: its size less its cycles."""
+    seen, cycles = np.zeros(len(order), dtype=bool), 0
+    for start in range(len(order)):
+        if not seen[start]:
+            cycles += 1
+            while not seen[start]:
+                seen[start] = True
+                start = int(order[start])  # noqa: PLW2901
+    return len(order) - cycles
 
 
 class _BlockTridiagonal:

@@ -36,6 +36,14 @@ class Tridiagonal(Symmetric):
             raise ValueError("diagonal must have at least one entry; it has none")
         object.__setattr__(self, "off_diagonal", vector("off_diagonal", self.off_diagonal, self.diagonal.size - 1))
 
+    @classmethod
+    def of(cls, diagonal: Array, off_diagonal: Array) -> "Tridiagonal":
+        """The same from arrays that are known to be finite and of the right shape: they are not looked at again."""
+        matrix = cls.__new__(cls)
+        object.__setattr__(matrix, "diagonal", diagonal)
+        object.__setattr__(matrix, "off_diagonal", off_diagonal)
+        return matrix
+
     @property
     def shape(self) -> tuple[int, int]:
         """(n, n)."""
@@ -72,7 +80,7 @@ class Tridiagonal(Symmetric):
         """L U with partial pivoting, for many right-hand sides."""
         return TridiagonalFactor(self)
 
-    def shifted(self, mu: float) -> "Tridiagonal":
+    def shifted(self, mu: Array | float) -> "Tridiagonal":
         """T + mu I."""
         return Tridiagonal(self.diagonal + mu, self.off_diagonal)
 
@@ -109,13 +117,19 @@ class TridiagonalFactor:
 
     def solve(self, b: Array) -> Array:
         """x with T x = b."""
-        b = vector("b", b, self.matrix.diagonal.size)
+        if not (isinstance(b, np.ndarray) and b.size == self.matrix.diagonal.size):  # else of the house: not looked at
+            b = vector("b", b, self.matrix.diagonal.size)
         x, _ = lapack.dgttrs(*self._factors, np.append(b, self._padding) if self._padding.size else b)
         return np.asarray(x[: b.size])
 
     def solve_transposed(self, b: Array) -> Array:
         """x with T^T x = b: the same, T being symmetric."""
         return self.solve(b)
+
+    def sign(self) -> int:
+        """Sign of the determinant: that of the number of negative eigenvalues."""
+        known = self.inertia()
+        return 0 if known.unclear else 1 - 2 * (known.negative % 2)
 
     def inertia(self) -> Inertia:
         """Signs of the eigenvalues of T."""

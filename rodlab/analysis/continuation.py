@@ -1,0 +1,222 @@
+"""A branch as a stream of points, each step shown to stay on it [N 2.7, Parameter Continuation; Keller 1977].
+
+    predict    along the cubic through the last two points and their tangents, of the fourth order in the step
+    correct    by Newton's method in the plane across the branch (arclength) or at the predicted load (natural)
+    show       that the step is a piece of one branch: proved, or checked
+    adapt      the length to the error of the prediction
+
+A step is *proved* where `rodlab.analysis.proof` covers all of it. What stays open - around branch points, or all of it where the
+model knows no bounds - is *checked*: the solution half-way is where the cubic says, the tangent turns little, the
+corrections shrink, and a change of the index is explained by eigenvalues found to cross zero. A step of which neither holds
+is halved.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from rodlab.analysis.crossings import Crossing, Locator, Place
+from rodlab.analysis.curve import Corrected, Curve, Segment
+from rodlab.analysis.derivatives import check_derivatives
+from rodlab.analysis.newton import NoConvergence
+from rodlab.analysis.point import Point
+from rodlab.analysis.proof import Prover, Span
+from rodlab.numerics.arrays import Array, number
+from rodlab.numerics.inertia import Inertia
+
+TURN = 0.8  # least cosine between the tangents at the ends of a step
+MISS = 0.1  # greatest error of a prediction, as a part of the step
+AIM = 0.01  # the error that the next step aims at
+GROWTH = 3.0  # longest step after a step
+SHORTEST = 1e-11  # of the size of the point: no shorter step is tried
+
+
+class Window(NamedTuple):
+    """A part of a step where the Jacobian may be singular: a proved fold, or what crossings were found in it."""
+
+    a: Place
+    b: Place
+    fold: bool
+    crossings: tuple[Crossing, ...]
+
+    @property
+    def turns(self) -> bool:
+        """True when the load turns back between its ends."""
+        return float(self.a.tangent[-1]) * float(self.b.tangent[-1]) < 0
+
+
+class Step(NamedTuple):
+    """One accepted step: the segment, its ends, what was shown, and the point it arrived at."""
+
+    segment: Segment
+    a: Place
+    b: Place
+    proved: bool
+    windows: tuple[Window, ...]
+    point: Point
+
+
+def branch(
+    p: Point, step: float = 0.1, *, toward: float | None = None, natural: bool = False, scale: float = 1.0
+) -> Iterator[Point]:
+    """The points of the branch through p, p itself left out: endless and lazy.
+
+    step: first and longest length of a step, |.|^2 = inner(du, du) + (dlam / scale)^2. Direction: the point's tangent if it has
+    one, else of growing load, or towards the load `toward`. natural: steps in the load alone, which end at a fold.
+    Each point tells how its step was accepted: `p.proved` or `p.checked`.
+    Raises `NoConvergence` where the branch can be followed no further; `ValueError` for wrong arguments or derivatives.
+
+    >>> from itertools import islice
+    >>> from rodlab.analysis.equilibrium import equilibrium
+    >>> from rodlab.mechanics.strut import Strut
+    >>> [round(q.lam, 3) for q in islice(branch(equilibrium(Strut(n=10, u_hat=0.1), 0.0), 0.5), 4)]
+    [0.5, 0.999, 1.494, 1.894]
+    """
+    walk = Walk(p, step=step, toward=toward, natural=natural, scale=scale)
+    while True:
+        yield walk.advance().point
+
+
+class Walk:
+    """Where a continuation stands: the last point with its tangent, the point before, and the length of the next step."""
+
+    def __init__(
+        self, p: Point, *, step: float | None, toward: float | None = None, natural: bool = False, scale: float = 1.0
+    ) -> None:
+        if not isinstance(p, Point):
+            raise ValueError(f"p must be a Point, as equilibrium returns it; it is {p!r:.60}")
+        self.longest = math.inf if step is None else number("step", step, above=0.0)
+        self.curve = Curve(p.equations, number("scale", scale, above=0.0))
+        self.natural, self.prover, self.locator = natural, Prover(self.curve), Locator(self.curve)
+        check_derivatives(p.equations, p.u, p.lam)
+        y = np.append(p.u, p.lam)
+        self.here = Place(y, self._start(p, y, toward), self.curve.index(y))
+        self.before: Place | None = None
+        self.length = min(self.longest, self._first(p, toward))
+
+    def _start(self, p: Point, y: Array, toward: float | None) -> Array:
+        if p.tangent is not None:
+            return np.asarray(p.tangent / self.curve.norm(p.tangent))
+        ahead = np.zeros_like(y)
+        ahead[-1] = 1.0 if toward is None or toward >= p.lam else -1.0
+        return self.curve.tangent(y, ahead)
+
+    def _first(self, p: Point, toward: float | None) -> float:
+        """A first length: a small part of the way, or for a point next to a branch point of the way come from there."""
+        if math.isfinite(self.longest):
+            return self.longest
+        way = abs(toward - p.lam) / self.curve.scale / 20 if toward is not None and toward != p.lam else 0.1
+        return min(0.1, way)
+
+    def row(self, t: Array) -> Array:
+        """The plane of the corrector: across the branch, or at one load."""
+        if not self.natural:
+            return self.curve.row(t)
+        row = np.zeros_like(t)
+        row[-1] = np.sign(t[-1]) / self.curve.scale
+        return row
+
+    def advance(self) -> Step:
+        """Take one step. Raises `NoConvergence` when none is short enough to be shown."""
+        s, least = self.length, SHORTEST * max(1e-3, self.curve.norm(self.here.y))
+        why: NoConvergence | None = None
+        while s >= least:
+            try:
+                return self._tried(s)
+            except NoConvergence as failure:
+                why = failure
+                s *= 0.5
+        at = f"lam = {self.here.y[-1]:.9g}"
+        fold = "; natural continuation ends at a fold" if self.natural else ""
+        raise NoConvergence(f"the branch cannot be followed beyond {at}: {why}{fold}", () if why is None else why.history)
+
+    # --- one attempt -------------------------------------------------------------------------------------------
+
+    def _tried(self, s: float) -> Step:
+        here, curve = self.here, self.curve
+        row = self.row(here.tangent)
+        guess = self._predicted(s, row)
+        found = curve.correct(guess, row)
+        miss = curve.norm(found.y - guess) / s
+        if miss > MISS:
+            raise NoConvergence(f"the prediction was wrong by {miss:.2g} of the step", found.history)
+        segment = Segment(here.y, here.tangent, found.y, curve.tangent(found.y, here.tangent), row)
+        turn = curve.dot(here.tangent, segment.tb)
+        if not turn > TURN:
+            raise NoConvergence(f"the tangent turned by {math.degrees(math.acos(max(-1.0, min(1.0, turn)))):.0f} degrees", ())
+        step = self._shown(segment, found)
+        self.before, self.here = here, step.b
+        self.length = min(self.longest, s * min(GROWTH, max(0.3, (AIM / max(miss, 1e-12)) ** (1 / 3))))
+        return step
+
+    def _predicted(self, s: float, row: Array) -> Array:
+        here, before = self.here, self.before
+        if before is None:
+            return np.asarray(here.y + (s / (row @ here.tangent)) * here.tangent)
+        past = Segment(before.y, before.tangent, here.y, here.tangent, row)
+        return past.at(past.length + s)
+
+    def _shown(self, segment: Segment, found: Corrected) -> Step:
+        """The step with what was shown of it. Raises `NoConvergence` when it is not explained."""
+        spans = self.prover.spans(segment)
+        last = spans[-1]
+        if all(span.kind == "regular" for span in spans) and self.prover.proves:
+            return self._step(segment, found, last.index, True, ())
+        index = last.index if last.kind == "regular" else self.curve.index(segment.b)
+        b = Place(segment.b, segment.tb, index)
+        if not self.prover.proves:
+            self.locator.place(segment, segment.length / 2)  # half-way as well
+        windows = tuple(self._windows(segment, b, spans))
+        return self._step(segment, found, index, self.prover.proves and all(w.fold for w in windows), windows)
+
+    def _windows(self, segment: Segment, b: Place, spans: list[Span]) -> Iterator[Window]:
+        """The parts between regular spans, each explained."""
+        first = Place(segment.a, segment.ta, self.here.index if spans[0].index is None else spans[0].index)
+        for group in _groups(spans):
+            start, stop = group[0], group[-1]
+            left = first if start.start == 0 else self._gate(segment, start.start, spans)
+            right = b if stop is spans[-1] else self._gate(segment, stop.stop, spans)
+            fold = all(span.kind == "fold" for span in group)
+            if not fold and left.index is not None and right.index is None:
+                raise NoConvergence("the index at the end of the step cannot be verified", ())
+            crossings = () if fold else tuple(self.locator.between(left, right))
+            if not fold and not crossings:
+                self._halfway(left, right)
+            yield Window(left, right, fold, crossings)
+
+    def _gate(self, segment: Segment, sigma: float, spans: list[Span]) -> Place:
+        """The solution at the end of a regular span, with the index shown there."""
+        place = self.locator.place(segment, sigma)
+        known = [s.index for s in spans if s.index is not None and sigma in (s.start, s.stop)]
+        return replace(place, index=known[0]) if known else place
+
+    def _halfway(self, left: Place, right: Place) -> None:
+        piece = self.locator.segment(left, right)
+        self.locator.place(piece, piece.length / 2)
+
+    def _step(self, segment: Segment, found: Corrected, index: int | None, proved: bool, windows: tuple[Window, ...]) -> Step:
+        inertia = None
+        if index is not None and self.curve.symmetric(segment.b):
+            inertia = Inertia(index, 0, segment.b.size - 1 - index)
+        point = Point(
+            self.curve.equations, float(segment.b[-1]), segment.b[:-1].copy(), found.history, found.remaining,
+            tangent=segment.tb, accepted="proved" if proved else "checked", known_inertia=inertia,
+        )  # fmt: skip
+        return Step(segment, self.here, Place(segment.b, segment.tb, index), proved, windows, point)
+
+
+def _groups(spans: list[Span]) -> Iterator[list[Span]]:
+    """Runs of spans that are not regular; regular ones of different index next to each other meet in an empty one."""
+    group: list[Span] = []
+    for span in spans:
+        if span.kind == "regular":
+            if group:
+                yield group
+            group = []
+        else:
+            group.append(span)
+    if group:
+        yield group

@@ -1,0 +1,236 @@
+"""The solutions of F(u, lam) = 0 as a curve in the space of y = (u, lam), arrays of shape (n + 1,).
+
+    |y|^2 = inner(u, u) + (lam / scale)^2        length, in which steps are measured
+    [ F_u  F_lam ] t = 0,   |t| = 1              unit tangent
+    [ F_u  F_lam ] [du  ]   [-F]                 one iteration of the corrector, in the plane row . (y - y_predicted) = 0:
+    [    row     ] [dlam] = [ 0]                 nonsingular at folds, where F_u is singular [Keller 1977]
+
+With the tangent's own row this is pseudo-arclength continuation, with row = (0, 1) natural continuation in the load.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rodlab.analysis.equations import Equations, jacobian, second_variation
+from rodlab.analysis.newton import NewtonStep, NoConvergence
+from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.bordered import OneBorder
+from rodlab.numerics.factor import factor, inertia_of
+from rodlab.numerics.inertia import Inertia, Symmetric
+
+ROUGH = 1e-7  # relative size below which corrections that stop shrinking are rounding
+CHORD = 1e-5  # relative size below which one more correction with the same factor finishes
+
+
+class Corrected(NamedTuple):
+    """A solution y, its history, the distance left in any one unknown, and how fast the corrections shrank."""
+
+    y: Array
+    history: tuple[NewtonStep, ...]
+    remaining: float
+    contraction: float
+
+
+class Curve:
+    """The equations with the geometry of their solution curves.
+
+    >>> class Circle:
+    ...     def residual(self, u, lam): return u**2 + lam**2 - 1
+    ...     def jacobian(self, u, lam): return np.diag(2 * u)
+    ...     def d_lam(self, u, lam): return np.array([2 * lam])
+    ...     def inner(self, u, v): return u @ v
+    >>> Curve(Circle()).tangent(np.array([0.0, 1.0]), toward=np.array([1.0, 0.0])).round(15)     # at the fold
+    array([ 1., -0.])
+    """
+
+    def __init__(self, equations: Equations, scale: float = 1.0) -> None:
+        self.equations, self.scale = equations, scale
+        self._symmetric: bool | None = None
+        bound = getattr(equations, "embedding", None)
+        self.embedding = bound if bound is not None else lambda _: (0.0, 1.0)
+
+    # --- the equations on y ------------------------------------------------------------------------------------
+
+    def residual(self, y: Array) -> Array:
+        """F(u, lam)."""
+        return np.asarray(self.equations.residual(y[:-1], float(y[-1])))
+
+    def jacobian(self, y: Array) -> Any:
+        """F_u."""
+        return jacobian(self.equations, y[:-1], float(y[-1]))
+
+    def d_lam(self, y: Array) -> Array:
+        """F_lam."""
+        return np.asarray(self.equations.d_lam(y[:-1], float(y[-1])), dtype=np.float64)
+
+    def second_variation(self, y: Array) -> Any:
+        """The symmetric matrix whose negative eigenvalues are the index."""
+        return second_variation(self.equations, y[:-1], float(y[-1]))
+
+    def inertia(self, y: Array) -> Inertia | None:
+        """Signs of the eigenvalues of the second variation; None where there is none."""
+        return inertia_of(self.second_variation(y))
+
+    def index(self, y: Array) -> int | None:
+        """The index, None where it cannot be verified; without symmetry 0 or 1, the sign of the determinant, no more."""
+        known = self.inertia(y)
+        if known is None:
+            sign = factor(self.jacobian(y)).sign()
+            return None if sign == 0 else int(sign < 0)
+        return known.negative if known.verified else None
+
+    def symmetric(self, y: Array) -> bool:
+        """True when the Jacobian is symmetric, as the derivative of an energy's gradient is."""
+        if self._symmetric is None:
+            J = self.jacobian(y)
+            self._symmetric = isinstance(J, Symmetric) or factor(J).inertia() is not None
+        return self._symmetric
+
+    # --- geometry ----------------------------------------------------------------------------------------------
+
+    def dot(self, a: Array, b: Array) -> float:
+        """The scalar product of steps."""
+        return float(self.equations.inner(a[:-1], b[:-1])) + float(a[-1] * b[-1]) / self.scale**2
+
+    def norm(self, a: Array) -> float:
+        """The length of a step."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            return math.sqrt(max(self.dot(a, a), 0.0))
+
+    def row(self, t: Array) -> Array:
+        """The functional y -> t . y as a row: 1 on the unit vector t itself.
+
+        `inner` is known only through its values; on directions other than t the plain product serves as well.
+        """
+        u = t[:-1]
+        plain = float(u @ u)
+        weight = float(self.equations.inner(u, u)) / plain if plain > 0 else 0.0
+        return np.append(weight * u, t[-1] / self.scale**2)
+
+    def tangent(self, y: Array, toward: Array) -> Array:
+        """The unit tangent at a solution y, on the side of the direction `toward`."""
+        row = self.row(toward / self.norm(toward))
+        return self._tangent(OneBorder(factor(self.jacobian(y)), self.d_lam(y), row[:-1], float(row[-1])), y, row)
+
+    def _tangent(self, solver: OneBorder, y: Array, row: Array) -> Array:
+        side = np.zeros_like(y)
+        side[-1] = 1.0
+        with np.errstate(all="ignore"):
+            t = solver.solve(side)
+        size = self.norm(t)
+        if not (np.isfinite(size) and size > 0):
+            raise NoConvergence("the branch has no tangent here: its bordered matrix is singular", ())
+        return np.asarray(t / (size * np.sign(row @ t or 1.0)))
+
+    # --- corrector ---------------------------------------------------------------------------------------------
+
+    def correct(self, y: Array, row: Array, limit: int = 8) -> Corrected:
+        """The solution in the plane through y that `row` cuts, by Newton's method.
+
+        Raises `NoConvergence` unless every correction is at most half the last, up to rounding.
+        """
+        history: list[NewtonStep] = []
+        last, contraction, solver, start = math.inf, 0.0, None, self.norm(y)
+        while len(history) < limit:
+            F = self._finite_residual(y, history)
+            if solver is None:
+                J, f = self.jacobian(y), self.d_lam(y)
+                with np.errstate(all="ignore"):
+                    solver = OneBorder(factor(J), f, row[:-1], float(row[-1]))
+            with np.errstate(all="ignore"):
+                step = solver.solve(np.append(-F, 0.0))
+            size = self.norm(step)
+            history.append(NewtonStep(size, self._size(F), 1.0))
+            scale = max(self.norm(y), start)
+            if not math.isfinite(size) or size > scale + 1e3:
+                raise NoConvergence(f"the corrector left: a correction of {size:.2g} from a point of {scale:.2g}", tuple(history))
+            floor = 2 * EPS * max(self.norm(np.append(y[:-1], 0.0)), 1e-3 * start)
+            theta = size / last if 0 < last < math.inf else math.inf
+            if theta > 0.5 and math.isfinite(theta) and size > floor:
+                if last <= ROUGH * scale:  # corrections of the size of rounding shrink no more
+                    return self._corrected(y, step, 2 * last, history, contraction)
+                raise NoConvergence(f"corrections do not shrink: {last:.2g}, then {size:.2g}", tuple(history))
+            if math.isfinite(theta) and len(history) == 2:
+                contraction = theta
+            y = y + step
+            left = size * theta / (1 - theta) if theta < 0.5 else math.inf
+            if size <= floor or left <= floor:
+                return self._corrected(y, step, min(size, left), history, contraction)
+            last = size
+            if size > CHORD * scale:
+                solver = None  # else the last factor serves once more
+        raise NoConvergence(f"after {limit} corrections the last was {history[-1].step:.2g}", tuple(history))
+
+    def _finite_residual(self, y: Array, history: list[NewtonStep]) -> Array:
+        with np.errstate(all="ignore"):
+            F = self.residual(y) if np.isfinite(y).all() else np.full(y.size - 1, np.nan)
+        if not np.isfinite(F).all():
+            raise NoConvergence("the residual is not finite at the predicted point", tuple(history))
+        return F
+
+    def _size(self, F: Array) -> float:
+        return math.sqrt(max(float(self.equations.inner(F, F)), 0.0))
+
+    def _corrected(self, y: Array, step: Array, left: float, history: list[NewtonStep], contraction: float) -> Corrected:
+        size = self.norm(step)
+        remaining = left * float(np.abs(step[:-1]).max(initial=0.0)) / size if size else 0.0
+        return Corrected(y, tuple(history), remaining, contraction)
+
+
+@dataclass(frozen=True, eq=False)
+class Segment:
+    """A piece of a curve between two solutions a and b with unit tangents; sigma = row . (y - a) runs from 0 to `length`.
+
+    Between them Hermite's cubic in sigma, wrong by O(length^4).
+    """
+
+    a: Array
+    ta: Array
+    b: Array
+    tb: Array
+    row: Array
+
+    @cached_property
+    def length(self) -> float:
+        """sigma at b."""
+        return float(self.row @ (self.b - self.a))
+
+    @cached_property
+    def slopes(self) -> tuple[Array, Array]:
+        """dy/dsigma at the two ends."""
+        return self.ta / (self.row @ self.ta), self.tb / (self.row @ self.tb)
+
+    def at(self, sigma: float) -> Array:
+        """The cubic at sigma; beyond the ends it extrapolates."""
+        s, x = self.length, sigma / self.length
+        da, db = self.slopes
+        return _cubic(x, self.a, self.b, s * da, s * db)
+
+    def loads(self, parts: Array) -> Array:
+        """The load of the cubic at parts of its length, shape of `parts`."""
+        da, db = (self.length * slope[-1] for slope in self.slopes)
+        return _cubic(parts, self.a[-1], self.b[-1], da, db)
+
+    def derivative(self, sigma: float) -> Array:
+        """dy/dsigma of the cubic."""
+        da, db = self.slopes
+        return _slope(sigma / self.length, (self.b - self.a) / self.length, da, db)
+
+    def rates(self, parts: Array) -> Array:
+        """dlam/dsigma of the cubic at parts of its length, shape of `parts`."""
+        da, db = (slope[-1] for slope in self.slopes)
+        return _slope(parts, (self.b[-1] - self.a[-1]) / self.length, da, db)
+
+
+def _cubic(x: Any, a: Any, b: Any, da: Any, db: Any) -> Array:
+    """Hermite's cubic on 0 <= x <= 1 with values a, b and slopes da, db."""
+    return np.asarray((1 + 2 * x) * (1 - x) ** 2 * a + x * x * (3 - 2 * x) * b + x * (1 - x) * ((1 - x) * da - x * db))
+
+
+def _slope(x: Any, chord: Any, da: Any, db: Any) -> Array:
+    """Its derivative."""
+    return np.asarray(6 * x * (1 - x) * chord + (1 - x) * (1 - 3 * x) * da + x * (3 * x - 2) * db)

@@ -1,0 +1,278 @@
+"""What happens along a branch: folds, branch points, and zeros of any function of a point, each located to full precision.
+
+    fold           the load turns back: J v = 0 with F_lam not in the range of J
+    branch point   J V = 0 with F_lam in the range of J: other branches leave, one or more for each null vector
+    of your own    lambda p: p.tip_angle - 1.0
+
+An event is passed to `follow` as one of `events`; what is not passed is not looked for.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+
+from rodlab.analysis.continuation import Step, Window
+from rodlab.analysis.crossings import Crossing, Locator, Place
+from rodlab.analysis.curve import Curve, Segment
+from rodlab.analysis.newton import NoConvergence
+from rodlab.analysis.point import Point
+from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.nullspace import near_null
+
+INSIDE = 1e-5  # part of F_lam along the null vectors below which it is in the range of J
+SAMPLES = 8  # of the cubic between two points, for several zeros in one step
+
+
+@dataclass(frozen=True, eq=False)
+class Event:
+    """Something at a point of a branch. `error` bounds that of its load as far as rounding and the location can be known.
+
+    kind: "fold", "branch point", "end", or the name of your function. multiplicity: eigenvalues that are zero there within
+    `error` (of a fold 1). null: the null vectors, shape (n, multiplicity). reason: why a branch ended, or what did not
+    converge. where: how far along its branch, counted in points.
+    """
+
+    kind: str
+    lam: float
+    error: float
+    point: Point
+    multiplicity: int = 0
+    reason: str = ""
+    converged: bool = True
+    null: Array | None = None
+    where: float = 0.0
+    fence: Segment | None = field(default=None, repr=False)
+
+    def __repr__(self) -> str:
+        times = f", multiplicity={self.multiplicity}" if self.multiplicity > 1 else ""
+        why = f", reason={self.reason!r}" if self.reason else ""
+        return f"Event({self.kind!r}, lam={self.lam:.12g}, error={self.error:.1e}{times}{why})"
+
+
+Finder = Callable[[Step, Locator], Iterator[Event]]
+
+
+class Singular:
+    """Folds or branch points of a step: both are singular points of the Jacobian, told apart by F_lam."""
+
+    def __init__(self, kind: str) -> None:
+        self.kind = kind
+
+    def __repr__(self) -> str:
+        return f"<event: {self.kind}>"
+
+    def find(self, step: Step, locator: Locator) -> Iterator[Event]:
+        """The events of this kind in a step, in order."""
+        for window in step.windows:
+            for event in _singular(window, locator, step):
+                if event.kind == self.kind:
+                    yield event
+
+
+fold = Singular("fold")
+branch_point = Singular("branch point")
+
+
+class Zero:
+    """Where a function of a point passes through zero."""
+
+    def __init__(self, function: Callable[[Point], Any]) -> None:
+        self.function = function
+        self.kind = str(getattr(function, "__name__", type(function).__name__))
+
+    def find(self, step: Step, locator: Locator) -> Iterator[Event]:
+        """The zeros in a step, several where the cubic between its ends shows them."""
+        segment, equations = step.segment, locator.curve.equations
+
+        def value(y: Array) -> float:
+            return float(self.function(Point(equations, float(y[-1]), y[:-1])))
+
+        grid = np.linspace(0.0, segment.length, SAMPLES + 1)
+        values = [value(segment.a), *(value(segment.at(s)) for s in grid[1:-1]), value(segment.b)]
+        for i in range(SAMPLES):
+            if values[i] * values[i + 1] < 0 or (values[i + 1] == 0 and values[i] != 0):
+                yield self._located(step, locator, value, (float(grid[i]), float(grid[i + 1])))
+
+    def _located(self, step: Step, locator: Locator, value: Callable[[Array], float], where: tuple[float, float]) -> Event:
+        segment = step.segment
+
+        def exact(sigma: float) -> float:
+            return value(_solution(segment, locator, sigma))
+
+        low, high = where
+        span = 1e-3 * (high - low)
+        while exact(low) * exact(high) > 0 and span < segment.length:
+            low, high, span = max(0.0, low - span), min(segment.length, high + span), 4 * span
+        if exact(low) * exact(high) > 0:
+            y = segment.at(low)
+            return _event(self.kind, y, float(abs(segment.b[-1] - segment.a[-1])), step, segment, reason="it only touches zero")
+        sigma = _root(exact, low, high)
+        y = _solution(segment, locator, sigma)
+        error = 4 * EPS * (abs(float(y[-1])) + abs(high)) * 4 + abs(value(y)) * _load_per_value(segment, value, sigma)
+        return _event(self.kind, y, error, step, segment)
+
+
+def finders(events: Any) -> list[Singular | Zero]:
+    """The events asked for as finders; one sentence for what is none."""
+    given = tuple(events) if isinstance(events, (tuple, list)) else (events,)
+    for event in given:
+        if not (isinstance(event, Singular) or callable(event)):
+            raise ValueError(f"events must be rl.fold, rl.branch_point or functions of a point; one is {event!r:.60}")
+    return [event if isinstance(event, Singular) else Zero(event) for event in given]
+
+
+# --- singular points ---------------------------------------------------------------------------------------------
+
+
+def _singular(window: Window, locator: Locator, step: Step) -> Iterator[Event]:
+    curve = locator.curve
+    if window.fold:
+        yield from _folds(window.a, window.b, locator, step)
+        return
+    crossings = list(window.crossings)
+    if not crossings:
+        touch = _touch(window, locator)
+        if touch is None:
+            yield from _folds(window.a, window.b, locator, step)
+            return
+        crossings = [touch]
+    for crossing in crossings:
+        p = crossing.multiplicity
+        turning = _outside(curve, crossing)
+        reason = "" if crossing.converged else f"{p} eigenvalues cross zero near here; they could not be told apart"
+        if turning and p == 1 and crossing.converged:
+            yield _exact_fold(crossing, locator, step)
+        elif turning:
+            yield _event("fold", crossing.y, crossing.error, step, crossing.fence, crossing, 1, reason)
+        if p > turning:
+            yield _event("branch point", crossing.y, crossing.error, step, crossing.fence, crossing, p - turning, reason)
+
+
+def _outside(curve: Curve, crossing: Crossing) -> int:
+    """1 where F_lam has a part along the left null vectors: the load turns; 0 where it is in the range of J."""
+    f = [curve.d_lam(y) for y in (crossing.y, crossing.fence.a, crossing.fence.b)]
+    size = max(float(np.sqrt(g @ g)) for g in f)
+    part = crossing.null.left.T @ f[0]
+    return int(float(np.sqrt(part @ part)) > INSIDE * size) if size > 0 else 0
+
+
+def _folds(a: Place, b: Place, locator: Locator, step: Step) -> Iterator[Event]:
+    """Every place between a and b where the load turns."""
+    segment = locator.segment(a, b)
+    parts = np.linspace(0.0, 1.0, SAMPLES + 1)
+    rates = segment.rates(parts)
+    for i in np.flatnonzero(rates[:-1] * rates[1:] < 0):
+        yield _fold_between(segment, locator, step, *(float(x) * segment.length for x in parts[i : i + 2]))
+
+
+def _fold_between(segment: Segment, locator: Locator, step: Step, low: float, high: float) -> Event:
+    curve = locator.curve
+
+    def rate(sigma: float) -> float:
+        y = _solution(segment, locator, sigma)
+        return float(curve.tangent(y, segment.derivative(sigma))[-1])
+
+    if rate(low) * rate(high) > 0:
+        low, high = 0.0, segment.length
+    y = _solution(segment, locator, _root(rate, low, high))
+    return _fold_at(y, segment, locator, step)
+
+
+def _exact_fold(crossing: Crossing, locator: Locator, step: Step) -> Event:
+    """A fold is a regular point of the curve: the corrector gives it to full precision, beyond the cubic."""
+    try:
+        y = locator.curve.correct(crossing.y, crossing.fence.row).y
+    except NoConvergence:
+        return _event("fold", crossing.y, crossing.error, step, crossing.fence, crossing, 1)
+    return _fold_at(y, crossing.fence, locator, step)
+
+
+def _fold_at(y: Array, segment: Segment, locator: Locator, step: Step) -> Event:
+    curve = locator.curve
+    near = near_null(curve.jacobian(y), 1, symmetric=curve.symmetric(y))
+    point = Point(curve.equations, float(y[-1]), y[:-1])
+    psi = near.left[:, 0]
+    own = getattr(curve.equations, "rounding", None)
+    noise = float(own(y[:-1], float(y[-1]), psi)) if own is not None else float(np.abs(psi) @ point._noise)
+    push = abs(float(psi @ curve.d_lam(y))) or np.inf
+    error = (noise + abs(float(psi @ curve.residual(y)))) / push + 2 * EPS * abs(float(y[-1]))
+    return _event("fold", y, error, step, segment, None, 1, null=near.right)
+
+
+def _touch(window: Window, locator: Locator) -> Crossing | None:
+    """A zero of eigenvalues that keep their sign: a pitchfork seen from its side branch, where the load turns as well."""
+    segment = locator.segment(window.a, window.b)
+    if not window.turns:
+        return None
+    sigma = _turning(segment)
+    width = 1e-2 * segment.length
+    try:
+        for _ in range(3):
+            left, right = (locator.place(segment, min(max(sigma + side * width, 0.0), segment.length)) for side in (-1, 1))
+            fence = locator.segment(left, right)
+            if not float(left.tangent[-1]) * float(right.tangent[-1]) < 0:
+                return None
+            sigma = _turning(fence)
+            segment, width = fence, 0.05 * fence.length
+    except NoConvergence:
+        return None
+    return _touching(fence, sigma, locator)
+
+
+def _touching(fence: Segment, sigma: float, locator: Locator) -> Crossing | None:
+    curve = locator.curve
+    y = fence.at(sigma)
+    symmetric = curve.symmetric(y)
+    most = min(3, y.size - 1)
+    ends = near_null(curve.jacobian(fence.a), 1, symmetric=symmetric).values
+    here = near_null(curve.jacobian(y), most, symmetric=symmetric)
+    p = int((np.abs(here.values) <= 1e-3 * abs(float(ends[0]))).sum())
+    if p == 0:
+        return None
+    crossing = locator.crossing(fence, sigma, p, 1e-15, p)
+    bend = abs(float(fence.derivative(fence.length)[-1] - fence.derivative(0.0)[-1])) / fence.length
+    off = float(np.sqrt(abs(here.values[p - 1] / ends[0]))) * fence.length  # the load is quadratic in it
+    touched = crossing._replace(touches=True, error=crossing.error + bend * off**2)
+    return None if _outside(curve, touched) else touched
+
+
+# --- small parts -------------------------------------------------------------------------------------------------
+
+
+def _solution(segment: Segment, locator: Locator, sigma: float) -> Array:
+    return locator.curve.correct(segment.at(sigma), segment.row).y
+
+
+def _root(f: Callable[[float], float], low: float, high: float) -> float:
+    """A zero between low and high, where f has different signs; the nearer end where it has not, by rounding."""
+    at = f(low), f(high)
+    if at[0] * at[1] >= 0:
+        return low if abs(at[0]) < abs(at[1]) else high
+    return float(brentq(f, low, high, xtol=4 * EPS * max(abs(low), abs(high)), rtol=8 * EPS))
+
+
+def _turning(segment: Segment) -> float:
+    """Where the load of the cubic is stationary."""
+    return segment.length * _root(lambda x: float(segment.rates(np.asarray(x))), 0.0, 1.0)
+
+
+def _load_per_value(segment: Segment, value: Callable[[Array], float], sigma: float) -> float:
+    e = 1e-4 * segment.length
+    change = value(segment.at(sigma + e)) - value(segment.at(sigma - e))
+    return abs(2 * e * float(segment.derivative(sigma)[-1]) / change) if change else np.inf
+
+
+def _event(
+    kind: str, y: Array, error: float, step: Step, fence: Segment, crossing: Crossing | None = None, multiplicity: int = 0,
+    reason: str = "", null: Array | None = None,
+) -> Event:  # fmt: skip
+    sigma = float(step.segment.row @ (y - step.segment.a))
+    t = fence.derivative(float(fence.row @ (y - fence.a)))
+    point = Point(step.point.equations, float(y[-1]), y[:-1].copy(), tangent=t, accepted=step.point.accepted)
+    return Event(
+        kind, float(y[-1]), float(error), point, multiplicity, reason, crossing is None or crossing.converged,
+        crossing.null.right if crossing is not None else null, sigma / step.segment.length, fence,
+    )  # fmt: skip

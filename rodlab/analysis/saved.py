@@ -1,0 +1,184 @@
+"""Branches as files: JSON to be read by anything, npz for long ones; both whole or not at all, and never pickled.
+
+One record, two dresses. Arrays: lam (m,), u (m, n), tangent (m, n + 1) and, for each event, its own and the fence around it,
+so that a branch that was read can be extended and switched from like the one that was followed.
+"""
+
+import io
+import json
+import zipfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rodlab.analysis.curve import Segment
+from rodlab.analysis.equations import Equations
+from rodlab.analysis.events import Event
+from rodlab.analysis.follow import Branch
+from rodlab.analysis.newton import Newton, NoConvergence
+from rodlab.analysis.point import Point
+from rodlab.files import write_whole
+from rodlab.numerics.arrays import Array
+from rodlab.numerics.inertia import Inertia
+from rodlab.version import __version__
+
+SCHEMA = 1
+SUFFIXES = (".json", ".npz")
+
+
+class Recorded:
+    """Stands where a model was: it can say what was recorded, and no more."""
+
+    def __init__(self, said: str) -> None:
+        self.said = said
+
+    def __repr__(self) -> str:
+        return f"Recorded({self.said})"
+
+    def _missing(self, *_: Any) -> Any:
+        raise ValueError(f"the branch was read without its model; give it: rl.read(path, model=...). It was {self.said}")
+
+    residual = jacobian = d_lam = inner = _missing
+
+
+def save(branch: Branch, path: Any) -> Path:
+    """Write a branch to a .json or .npz file, whole or not at all; `ValueError` when it cannot be written."""
+    path = Path(path)
+    if path.suffix not in SUFFIXES:
+        raise ValueError(f"path must end in .json or .npz; it is {str(path)!r}")
+    record, arrays = _record(branch)
+    if path.suffix == ".json":
+        whole = {**record, "arrays": {name: array.tolist() for name, array in arrays.items()}}
+        return write_whole(path, json.dumps(whole, allow_nan=False) + "\n")
+    out = io.BytesIO()
+    np.savez_compressed(out, record=np.array(json.dumps(record, allow_nan=False)), **arrays)  # type: ignore[arg-type]
+    return write_whole(path, out.getvalue())
+
+
+def load(path: Any, model: Equations | None, rebuild: Callable[[Mapping[str, Any]], Equations]) -> Branch:
+    """Read what `save` wrote. model: the equations; None asks `rebuild` with the recipe in the file, if it has one.
+
+    Raises `ValueError`, in one sentence, for a file that is not a whole branch, or whose points do not solve the model.
+    """
+    record, arrays = _opened(Path(path))
+    try:
+        if record["schema"] != SCHEMA:
+            raise ValueError(f"{path} has schema {record['schema']}; this rodlab reads {SCHEMA}")
+        if model is None and record["recipe"] is not None:
+            model = rebuild(record["recipe"])
+        equations = Recorded(str(record["model"])) if model is None else model
+        points = [_point(equations, entry, i, arrays) for i, entry in enumerate(record["points"])]
+        events = [_event(equations, entry, i, arrays, points) for i, entry in enumerate(record["events"])]
+    except (KeyError, IndexError, TypeError) as error:
+        raise ValueError(f"{path} is not a whole branch: {error!r}") from None
+    if not points or not events:
+        raise ValueError(f"{path} is not a whole branch: it has no points or no end")
+    if model is not None:
+        _solves(model, points, path)
+    return Branch(points, events)
+
+
+# --- out ---------------------------------------------------------------------------------------------------------
+
+
+def _record(branch: Branch) -> tuple[dict[str, Any], dict[str, Array]]:
+    points = branch.points
+    model = points[0].equations
+    arrays = {
+        "lam": branch.lam,
+        "u": np.array([p.u for p in points]),
+        "tangent": np.array([np.zeros(p.u.size + 1) if p.tangent is None else p.tangent for p in points]),
+    }
+    for i, e in enumerate(branch.events):
+        arrays[f"event{i}_y"] = np.append(e.point.u, e.point.lam)
+        if e.point.tangent is not None:
+            arrays[f"event{i}_tangent"] = e.point.tangent
+        if e.null is not None:
+            arrays[f"event{i}_null"] = e.null
+        if e.fence is not None:
+            arrays[f"event{i}_fence"] = np.array([e.fence.a, e.fence.ta, e.fence.b, e.fence.tb, e.fence.row])
+    record = {
+        "schema": SCHEMA, "rodlab": __version__, "what": "branch", "model": repr(model),
+        "recipe": getattr(model, "recipe", None),
+        "points": [_said(p) for p in points],
+        "events": [
+            {
+                "kind": e.kind, "lam": e.lam, "error": e.error if np.isfinite(e.error) else None, "multiplicity": e.multiplicity,
+                "reason": e.reason, "converged": e.converged, "where": e.where, "measures": _measures(e.point),
+                "accepted": e.point.accepted,
+            }
+            for e in branch.events
+        ],
+    }  # fmt: skip
+    return record, arrays
+
+
+def _said(p: Point) -> dict[str, Any]:
+    known = p.inertia if not isinstance(p.equations, Recorded) else p.known_inertia
+    return {
+        "lam": p.lam, "accepted": p.accepted, "remaining": p.remaining, "tangent": p.tangent is not None,
+        "inertia": None if known is None else list(known), "measures": _measures(p),
+    }  # fmt: skip
+
+
+def _measures(p: Point) -> dict[str, float]:
+    names = p.recorded if isinstance(p.equations, Recorded) else getattr(p.equations, "measures", {})
+    return {name: p.measure(name) for name in names or {}}
+
+
+# --- in ----------------------------------------------------------------------------------------------------------
+
+
+def _opened(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    if path.suffix not in SUFFIXES:
+        raise ValueError(f"path must end in .json or .npz; it is {str(path)!r}")
+    try:
+        if path.suffix == ".json":
+            record = json.loads(path.read_text(encoding="utf-8"))
+            arrays = {name: np.asarray(values, dtype=np.float64) for name, values in record["arrays"].items()}
+            return record, arrays
+        with np.load(path, allow_pickle=False) as file:
+            arrays = {name: file[name] for name in file.files}
+        return json.loads(str(arrays.pop("record"))), arrays
+    except OSError as error:
+        raise ValueError(f"{path} cannot be read: {error.strerror or error}") from None
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile, RecursionError) as error:
+        raise ValueError(f"{path} is not a branch that rodlab saved: {str(error)[:80]}") from None
+
+
+def _point(equations: Any, entry: Mapping[str, Any], i: int, arrays: Mapping[str, Array]) -> Point:
+    inertia = None if entry["inertia"] is None else Inertia(*entry["inertia"])
+    tangent = arrays["tangent"][i] if entry["tangent"] else None
+    return Point(
+        equations, float(arrays["lam"][i]), np.array(arrays["u"][i]), (), float(entry["remaining"]), tangent,
+        str(entry["accepted"]), inertia, dict(entry["measures"]) if isinstance(equations, Recorded) else None,
+    )  # fmt: skip
+
+
+def _event(equations: Any, entry: Mapping[str, Any], i: int, arrays: Mapping[str, Array], points: list[Point]) -> Event:
+    y = arrays[f"event{i}_y"]
+    fence = arrays.get(f"event{i}_fence")
+    point = Point(
+        equations, float(y[-1]), y[:-1].copy(), tangent=arrays.get(f"event{i}_tangent"), accepted=str(entry["accepted"]),
+        recorded=dict(entry["measures"]) if isinstance(equations, Recorded) else None,
+    )  # fmt: skip
+    error = np.inf if entry["error"] is None else float(entry["error"])
+    return Event(
+        str(entry["kind"]), float(entry["lam"]), error, points[-1] if entry["kind"] == "end" else point,
+        int(entry["multiplicity"]), str(entry["reason"]), bool(entry["converged"]), arrays.get(f"event{i}_null"),
+        float(entry["where"]), None if fence is None else Segment(*fence),
+    )  # fmt: skip
+
+
+def _solves(model: Equations, points: list[Point], path: Any) -> None:
+    """Raise unless Newton's method, from the first and the last point, stays there."""
+    for p in (points[0], points[-1]):
+        try:
+            root = Newton.at(model, p.lam, 20).solve(p.u)
+            off = float(np.abs(root.u - p.u).max(initial=0.0))
+        except (NoConvergence, ValueError, ArithmeticError) as error:
+            raise ValueError(f"{path} does not hold solutions of this model: {error}") from None
+        if off > 1e-6 * (1 + float(np.abs(p.u).max(initial=0.0))):
+            raise ValueError(f"{path} does not hold solutions of this model: the nearest one is {off:.2g} away")

@@ -1,0 +1,179 @@
+"""From a branch point onto every branch that leaves it, one start for each half-branch.
+
+The algebraic bifurcation equations are solved near the point, on the sphere |xi| = rho in the space of its null vectors and,
+where the followed branch itself lies there, along the load as well. Roots on the followed branch are dropped; every other
+one is corrected to a solution of the full equations and compared with the followed branch at the same place: a start that
+has not left it is no start. Where the eigenvalues all cross one way, the count is proved complete by Poincare and Hopf's theorem:
+the signs of the roots sum to the Euler characteristic of the sphere.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from rodlab.analysis.curve import Curve, Segment
+from rodlab.analysis.events import Event
+from rodlab.analysis.newton import NoConvergence
+from rodlab.analysis.point import Point
+from rodlab.analysis.reduced import Polynomial, Reduced
+from rodlab.numerics.arrays import Array
+from rodlab.numerics.nullspace import NearNull, near_null
+
+FIRST = 0.05  # distance of a start from its branch point, in the length of the equations
+LEAST = 1e-6
+FIT = 1e-3  # misfit of the cubic polynomial that still tells the directions
+MOST = 3  # null vectors
+
+
+def switch(event: Event) -> list[Point]:
+    """One start for each half-branch that leaves the followed branch at a branch point; each has its tangent, away from it.
+
+    Starts are solutions a small distance off, verified to have left. Null spaces up to dimension 3.
+    Raises `ValueError` unless the event is a branch point; `NoConvergence` where the half-branches found cannot be all.
+
+    >>> from rodlab.analysis.equilibrium import equilibrium
+    >>> from rodlab.analysis.follow import follow
+    >>> from rodlab.mechanics.strut import Strut
+    >>> b = follow(equilibrium(Strut(n=10), 0.0), to=5.0)
+    >>> [(round(p.lam, 3), round(p.tip_angle, 3)) for p in switch(b.events[0])]
+    [(2.235, 0.069), (2.235, -0.069)]
+    """
+    if not isinstance(event, Event) or event.kind != "branch point":
+        raise ValueError(f"event must be a branch point, of a branch that was followed; it is {event!r:.80}")
+    if event.fence is None or event.null is None:
+        raise ValueError("event must come from following a branch; one that was read from a file needs its model")
+    if not event.converged:
+        raise ValueError(f"event must have converged; it did not: {event.reason}")
+    curve = Curve(event.point.equations)
+    y = np.append(event.point.u, event.lam)
+    null = _null(curve, y, event)
+    if null.right.shape[1] > MOST:
+        raise ValueError(f"event must have at most {MOST} null vectors; it has {null.right.shape[1]}")
+    reduced = Reduced(curve, y, null)
+    rho, failure = FIRST, None
+    while rho >= LEAST:
+        try:
+            return _Leaving(curve, reduced, event, rho).starts()
+        except NoConvergence as why:
+            failure = why
+            rho /= 4
+    raise NoConvergence(f"no half-branch could be told at lam = {event.lam:.9g}: {failure}", ())
+
+
+def _null(curve: Curve, y: Array, event: Event) -> NearNull:
+    assert event.null is not None
+    symmetric = curve.symmetric(y)
+    p = event.null.shape[1]
+    return near_null(curve.jacobian(y), p, symmetric=symmetric, start=event.null)
+
+
+class _Leaving:
+    """The half-branches at a distance rho."""
+
+    def __init__(self, curve: Curve, reduced: Reduced, event: Event, rho: float) -> None:
+        assert event.fence is not None
+        self.curve, self.reduced, self.event, self.rho = curve, reduced, event, rho
+        self.fence: Segment = event.fence
+        self.parent = self.fence.derivative(float(self.fence.row @ (reduced.y - self.fence.a)))
+        self.polynomial = Polynomial(reduced, rho, self._load_scale())
+        if self.polynomial.misfit > FIT:
+            raise NoConvergence(f"the cubic misses the equations by {self.polynomial.misfit:.1g}", ())
+
+    def starts(self) -> list[Point]:
+        """All of them, those with a greater first angle first."""
+        found: list[Point] = []
+        for root in self._roots():
+            start = self._start(root)
+            if start is not None and all(self._apart(start, other) for other in found):
+                found.append(start)
+        few = [0, (self.reduced.y.size - 1) // 2, -1]
+        return sorted(found, key=lambda p: tuple(-np.round(p.u[few] / (1e-3 * self.rho))))
+
+    def _load_scale(self) -> float:
+        """Size of mu on the branches at the distance rho, from the eigenvalues' rate of crossing."""
+        reduced, rho = self.reduced, self.rho
+        p = reduced.p
+        b = max(float(np.abs(reduced.at(sign * rho * e, 0.0)[1]).max()) for e in np.eye(p) for sign in (1, -1))
+        mu = 1e-2 * rho * max(1.0, abs(float(reduced.y[-1])))
+        side = [reduced.at(0.1 * rho * e, s * mu)[1] for e in np.eye(p) for s in (1, 0)]
+        rate = max(float(np.abs(side[2 * j] - side[2 * j + 1]).max()) for j in range(p)) / (0.1 * rho * mu)
+        scale = b / (rho * rate) if rate > 0 and b > 1e-14 * rho else mu
+        return min(max(scale, 1e-8 * mu), 0.5 * (1 + abs(float(reduced.y[-1]))))
+
+    def _roots(self) -> Iterator[Array]:
+        p, polynomial = self.reduced.p, self.polynomial
+        for starts in (16 * 4 ** (p - 1), 128 * 4 ** (p - 1)):
+            roots = polynomial.roots_on_sphere(starts)
+            if self._complete(roots):
+                break
+        else:
+            raise NoConvergence(f"{len(roots)} directions were found, and their signs say that some are missing", ())
+        yield from roots
+        if self._parent_in_null():
+            yield from self._along_the_load()
+
+    def _complete(self, roots: Array) -> bool:
+        """Poincare and Hopf: signs of the tangential field sum to 0 on the circle, 2 on S^0 and S^2, if all cross one way."""
+        w = np.linalg.eigvals(self.polynomial.rate)
+        if self.polynomial.turns or np.abs(w.imag).max() > 1e-6 * np.abs(w).max() or w.real.min() * w.real.max() <= 0:
+            return True
+        signs = 0
+        for J, xm in zip(self.polynomial.jacobian(roots), roots, strict=True):
+            signs += int(np.sign(np.linalg.det(np.vstack([J, np.append(xm[:-1], 0.0)]))))
+        return abs(signs) == (2 if self.reduced.p % 2 else 0)
+
+    def _parent_in_null(self) -> bool:
+        """True when the followed branch leaves along the null vectors, with the load stationary."""
+        xi, _ = self._direction(self.parent)
+        return abs(float(self.parent[-1])) / self.polynomial.mu0 * self.rho < 0.1 * float(np.linalg.norm(xi))
+
+    def _direction(self, t: Array) -> tuple[Array, float]:
+        return np.asarray(self.reduced.rows.T @ t[:-1]), float(t[-1])
+
+    def _along_the_load(self) -> Iterator[Array]:
+        """The two halves on which the null vectors hardly take part, for a point met on one of its side branches."""
+        for m in (1.0, -1.0):
+            xm = np.append(np.zeros(self.reduced.p), m)
+            for _ in range(20):
+                J = self.polynomial.jacobian(xm[None])[0][:, :-1]
+                xm[:-1] -= np.linalg.lstsq(J, self.polynomial(xm[None])[0], rcond=1e-12)[0]
+            if np.abs(self.polynomial(xm[None])).max() < 1e-8 and np.abs(xm[:-1]).max() < 0.5:
+                yield xm
+
+    # --- from a root of the polynomial to a point ------------------------------------------------------------------
+
+    def _start(self, root: Array) -> Point | None:
+        """The solution of the full equations at a root, None where that is on the followed branch."""
+        reduced, curve = self.reduced, self.curve
+        guess, _ = reduced.at(self.rho * root[:-1], self.polynomial.mu0 * float(root[-1]))
+        away = guess - reduced.y
+        if np.abs(root[:-1]).max() > 0.1:  # in the plane across the null direction: regular on the new branch
+            row = curve.row(np.append(away[:-1], 0.0) / curve.norm(np.append(away[:-1], 0.0)))
+        else:
+            row = np.append(np.zeros(away.size - 1), np.sign(away[-1]))
+        found = curve.correct(guess, row, limit=12)
+        moved = curve.norm(found.y - guess)
+        size = curve.norm(guess - reduced.y)
+        if moved > 0.2 * size:
+            raise NoConvergence(f"a half-branch was moved by {moved / size:.2g} of its distance", found.history)
+        if not self._left(found.y):
+            return None
+        t = curve.tangent(found.y, away)
+        return Point(curve.equations, float(found.y[-1]), found.y[:-1].copy(), found.history, found.remaining, t, "checked")
+
+    def _left(self, y: Array) -> bool:
+        """True when a solution is not on the followed branch: that is computed at the same place and is elsewhere."""
+        curve, parent = self.curve, self.parent / self.curve.norm(self.parent)
+        row = curve.row(parent)
+        guess = self.reduced.y + float(row @ (y - self.reduced.y)) * parent
+        away, distance = curve.norm(y - guess), curve.norm(y - self.reduced.y)
+        try:
+            beside = curve.correct(guess, row).y
+        except NoConvergence:  # the plane is too near the branch point
+            beside = guess
+        if curve.norm(beside - guess) > away / 2:  # not the followed branch, whose tangent is near by
+            beside = guess
+        return curve.norm(y - beside) > 0.1 * distance
+
+    def _apart(self, p: Point, q: Point) -> bool:
+        return self.curve.norm(np.append(p.u - q.u, p.lam - q.lam)) > 1e-3 * self.rho

@@ -1,0 +1,83 @@
+"""A model as plain data: what a scene's [model] table and a saved branch hold, numbers, text and lists.
+
+{"n": 100, "u_hat": 0.01, "terms": {"self_weight": {"q": 2.0}}}        a Strut
+{"k": [1, 1], "beta": [0.1, 0]}                                        Strut.from_joints
+{..., "vary": "u_hat", "lam": 5.0}                                     the same, followed in u_hat at a load
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rodlab.mechanics.terms import Term, end_torque, foundation, self_weight
+
+if TYPE_CHECKING:
+    from rodlab.mechanics.strut import Strut
+    from rodlab.mechanics.varied import VariedStrut
+
+TERMS: dict[str, Callable[..., Term]] = {"self_weight": self_weight, "foundation": foundation, "end_torque": end_torque}
+BY_RULE = ("n", "K", "u_hat", "rule", "phi0", "breaks")
+BY_JOINT = ("k", "beta", "h", "beta0", "weights")
+
+
+def build(recipe: Mapping[str, Any]) -> "Strut | VariedStrut":
+    """The model of a recipe; `ValueError`, in one sentence, for what is none.
+
+    >>> build({"n": 3, "terms": {"self_weight": {"q": 2.0}}})
+    Strut(n=3, K=1.0, u_hat=0.0, rule='end', terms=(self_weight(q=2.0),))
+    """
+    from rodlab.mechanics.strut import Strut
+
+    given = dict(recipe)
+    vary, lam = given.pop("vary", None), given.pop("lam", None)
+    terms = tuple(_term(name, parameters) for name, parameters in _table("terms", given.pop("terms", {})).items())
+    joints = "k" in given
+    unknown = [name for name in given if name not in (BY_JOINT if joints else BY_RULE)]
+    if unknown:
+        allowed = ", ".join([*(BY_JOINT if joints else BY_RULE), "terms", "vary", "lam"])
+        raise ValueError(f"a model must be made of {allowed}; {unknown[0]} is none of these")
+    strut = Strut.from_joints(**given, terms=terms) if joints else Strut(**given, terms=terms)
+    if vary is None:
+        if lam is not None:
+            raise ValueError("lam must be given in a model only with vary, the name of the parameter that is followed")
+        return strut
+    if lam is None:
+        raise ValueError(f"lam must be given where {vary} is followed: the load that stays")
+    return strut.vary(vary, lam)
+
+
+def recipe_of(arguments: Mapping[str, Any], terms: Sequence[Term]) -> dict[str, Any] | None:
+    """The recipe of a strut's arguments; None where one of them is a function."""
+    recipe = {name: _plain(value) for name, value in arguments.items() if name != "terms" and value is not None}
+    said = {term.name: {name: _plain(value) for name, value in term.parameters.items()} for term in terms}
+    values = [*recipe.values(), *(value for parameters in said.values() for value in parameters.values())]
+    if any(callable(value) for value in values) or any(term.energy is not None for term in terms):
+        return None
+    return {**recipe, "terms": said} if said else recipe
+
+
+def kept(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments with arrays copied, so that they stay what they were."""
+    return {name: value.copy() if isinstance(value, np.ndarray) else value for name, value in arguments.items()}
+
+
+def _term(name: str, parameters: Any) -> Term:
+    if name not in TERMS:
+        raise ValueError(f"terms must be among {', '.join(TERMS)}; one is {name!r}")
+    try:
+        return TERMS[name](**_table(f"terms.{name}", parameters))
+    except TypeError as error:
+        raise ValueError(f"terms.{name} has the wrong parameters: {error}") from None
+
+
+def _table(name: str, value: Any) -> Mapping[str, Any]:
+    if not isinstance(value, Mapping):
+        raise ValueError(f"{name} must be a table; it is {value!r:.60}")
+    return value
+
+
+def _plain(value: Any) -> Any:
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    return list(value) if isinstance(value, tuple) else value

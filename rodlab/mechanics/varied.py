@@ -1,0 +1,167 @@
+"""A strut at a fixed load with another of its parameters in the load's place: equations F(u, value) = 0.
+
+    value of a number        K, u_hat, phi0, q, tau, ...       the number itself
+    value of a profile       an array, a function of s         its amplitude: 1 is the strut as given
+
+Spring constants and rest angles are proportional to the value; the derivative of the residual is SymPy's, as the load's is.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from rodlab.mechanics.assembly import balance, full
+from rodlab.mechanics.bounds import Bound
+from rodlab.numerics.arrays import Array, number
+
+if TYPE_CHECKING:
+    from rodlab.mechanics.strut import Strut
+
+ARRAY = {"K": "k", "k": "k", "u_hat": "beta", "beta": "beta"}  # the joints' array that is proportional to the value
+CLAMP = ("phi0", "beta0")
+
+
+class VariedStrut:
+    """The equations of `strut` at the load `lam`, followed in the parameter `name`; made by `rodlab.vary`.
+
+    >>> from rodlab.mechanics.strut import Strut
+    >>> bent = VariedStrut(Strut(n=4), "u_hat", 1.0)
+    >>> bent.at(0.5), bent.value
+    (Strut(n=4, K=1.0, u_hat=0.5, rule='end'), 0.0)
+    """
+
+    def __init__(self, strut: "Strut", name: str, lam: float) -> None:
+        own = [p for term in strut.terms for p in term.parameters]
+        known = [n for n in (*ARRAY, *CLAMP) if n in strut.arguments] + own
+        if name not in known:
+            raise ValueError(f"name must be a parameter of the strut, one of {', '.join(known)}; it is {name!r}")
+        if name in CLAMP and strut.kernel().hardens:
+            raise ValueError(f"{name} cannot be followed where a term is quadratic in the place (a foundation)")
+        self.strut, self.name, self.lam = strut, name, number("lam", lam)
+        given = next((t.parameters[name] for t in strut.terms if name in t.parameters), strut.arguments.get(name))
+        self.scalar = given is None or (not isinstance(given, str) and not callable(given) and np.ndim(given) == 0)
+        self._profile = given
+        self.value = float(0.0 if given is None else given) if self.scalar else 1.0
+        self.unit = self._unit()
+        self._last: tuple[float, Strut] | None = None
+
+    def __repr__(self) -> str:
+        return f"VariedStrut({self.strut!r}, {self.name!r}, lam={self.lam:g})"
+
+    @property
+    def recipe(self) -> dict[str, Any] | None:
+        """What to write into a file so that this can be made again; None for functions."""
+        strut = self.strut.recipe
+        return None if strut is None else {**strut, "vary": self.name, "lam": self.lam}
+
+    def _unit(self) -> Any:
+        """The joints' array (or the term's parameter) at the value 1."""
+        if self.name in CLAMP:
+            return 1.0
+        one = self.strut.replace(**{self.name: 1.0}) if self.scalar and self._profile is not None else self.strut
+        array = ARRAY.get(self.name, self.name)
+        return one.parameters[array]
+
+    def at(self, value: float) -> "Strut":
+        """The strut with this value of the parameter."""
+        if self.scalar:
+            return self.strut.replace(**{self.name: value})
+        if value == 1:
+            return self.strut
+        if isinstance(self._profile, str):
+            return self.strut.replace(**{self.name: f"({value!r})*({self._profile})"})
+        if callable(self._profile):
+            profile: Callable[[Any], Any] = self._profile
+            return self.strut.replace(**{self.name: lambda s: value * profile(s)})
+        return self.strut.replace(**{self.name: value * np.asarray(self._profile)})
+
+    def _at(self, value: float) -> "Strut":
+        """The same, sharing all that does not change."""
+        if self._last is not None and self._last[0] == value:
+            return self._last[1]
+        joints, parameters = self.strut.joints, dict(self.strut.parameters)
+        if self.name in CLAMP:
+            joints = replace(joints, phi0=value)
+        else:
+            array = ARRAY.get(self.name, self.name)
+            parameters[array] = value * self.unit
+            if array in ("k", "beta"):
+                if array == "k" and not value > 0:
+                    raise ValueError(f"{self.name} must stay positive; it came to {value:g}")
+                joints = replace(joints, **{array: parameters[array]})
+        strut = self.strut.with_joints(joints, parameters)
+        self._last = (value, strut)
+        return strut
+
+    # --- the equations ------------------------------------------------------------------------------------------
+
+    def residual(self, u: Array, value: float) -> Array:
+        """The gradient of the energy at the fixed load."""
+        return self._at(value).gradient(u, self.lam)
+
+    def jacobian(self, u: Array, value: float) -> Any:
+        """The Hessian."""
+        return self._at(value).hessian(u, self.lam)
+
+    second_variation = jacobian
+
+    def d_lam(self, u: Array, value: float) -> Array:
+        """d(gradient)/d(value), shape (n,)."""
+        strut = self._at(value)
+        if self.name in CLAMP:
+            out = np.zeros(strut.n)
+            out[0] = -strut.joints.k[0]
+            return out
+        link, array = strut.kernel(), ARRAY.get(self.name, self.name)
+        given = {name: strut.parameters[name] for name in link.parameters}
+        below = np.append(strut.joints.phi0, u[:-1])
+        m, f = (np.asarray(part) * self.unit for part in getattr(link, f"moments_{array}")(below, u, self.lam, **given))
+        g = balance(full(m, strut.n), f, u)
+        if link.places:
+            forces = getattr(link, f"forces_{array}")(*strut.places.of(u), **given)
+            g += strut.places.moments(u, *(np.asarray(force) * self.unit for force in forces))
+        return g
+
+    def inner(self, u: Array, v: Array) -> float:
+        """That of the strut."""
+        return self.strut.inner(u, v)
+
+    # --- what more the strut knows --------------------------------------------------------------------------------
+
+    @property
+    def measures(self) -> dict[str, Callable[[Array, float], float]]:
+        """The strut's, at the fixed load."""
+        return {
+            "tip_angle": lambda u, _: float(u[-1]),
+            "height": lambda u, value: self._at(value).height(u),
+            "energy": lambda u, value: float(self._at(value).energy(u, self.lam)),
+        }
+
+    def lipschitz(self, u: Array, value: float) -> Bound:
+        """As the strut's; known where the parameter takes no part in the Hessian: rest angles, the clamp, an end torque."""
+        if self.name not in ("u_hat", "beta", "phi0", "beta0", "tau"):
+            return lambda du, dvalue: (np.inf, np.inf)
+        bound = self._at(value).lipschitz(u, self.lam)
+        return lambda du, dvalue: (bound(du, 0.0)[0], 0.0)
+
+    def embedding(self, value: float) -> tuple[float, float]:
+        """As the strut's."""
+        return self._at(value).embedding(self.lam)
+
+    def rounding(self, u: Array, value: float, v: Array) -> float:
+        """As the strut's."""
+        return self._at(value).rounding(u, self.lam, v)
+
+    def start(self, guess: Any = None) -> Array:
+        """As the strut's."""
+        return self.strut.start(guess)
+
+    def nodes(self, u: Array) -> tuple[Array, Array]:
+        """As the strut's; the clamp's angle is that of the strut as given."""
+        return self.strut.nodes(u)
+
+    def shape(self, u: Array) -> tuple[Array, Array]:
+        """As the strut's."""
+        return self.strut.shape(u)
