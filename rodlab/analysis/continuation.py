@@ -31,6 +31,7 @@ TURN = 0.8  # least cosine between the tangents at the ends of a step
 MISS = 0.1  # greatest error of a prediction, as a part of the step
 AIM = 0.01  # the error that the next step aims at
 GROWTH = 3.0  # longest step after a step
+PARTS = 3  # times a part that stays open is halved, the solution half-way computed
 SHORTEST = 1e-11  # of the size of the point: no shorter step is tried
 
 
@@ -168,7 +169,7 @@ class Walk:
         index = last.index if last.kind == "regular" else self.curve.index(segment.b)
         b = Place(segment.b, segment.tb, index)
         if not self.prover.proves:
-            self.locator.place(segment, segment.length / 2)  # half-way as well
+            self.locator.place(segment, segment.length / 2)  # and half-way
         windows = tuple(self._windows(segment, b, spans))
         return self._step(segment, found, index, self.prover.proves and all(w.fold for w in windows), windows)
 
@@ -179,13 +180,29 @@ class Walk:
             start, stop = group[0], group[-1]
             left = first if start.start == 0 else self._gate(segment, start.start, spans)
             right = b if stop is spans[-1] else self._gate(segment, stop.stop, spans)
-            fold = all(span.kind == "fold" for span in group)
+            kinds = {span.kind for span in group}
+            if "open" in kinds and self.prover.proves and left.index == right.index:
+                kinds = self._by_parts(left, right, PARTS)
+                if kinds == {"regular"}:
+                    continue
+            fold = "open" not in kinds
             if not fold and left.index is not None and right.index is None:
                 raise NoConvergence("the index at the end of the step cannot be verified", ())
             crossings = () if fold else tuple(self.locator.between(left, right))
-            if not fold and not crossings:
-                self._halfway(left, right)
+            if not fold and not crossings and not self.prover.proves:
+                self._half(left, right)
             yield Window(left, right, fold, crossings)
+
+    def _by_parts(self, left: Place, right: Place, depth: int) -> set[str]:
+        """What can be shown when the solution half-way is computed as well, and again in the halves."""
+        middle = self._half(left, right)
+        kinds: set[str] = set()
+        for a, b in ((left, middle), (middle, right)):
+            shown = {span.kind for span in self.prover.spans(self.locator.segment(a, b))}
+            kinds |= self._by_parts(a, b, depth - 1) if "open" in shown and depth else shown
+            if "open" in kinds:
+                break
+        return kinds
 
     def _gate(self, segment: Segment, sigma: float, spans: list[Span]) -> Place:
         """The solution at the end of a regular span, with the index shown there."""
@@ -193,9 +210,10 @@ class Walk:
         known = [s.index for s in spans if s.index is not None and sigma in (s.start, s.stop)]
         return replace(place, index=known[0]) if known else place
 
-    def _halfway(self, left: Place, right: Place) -> None:
+    def _half(self, left: Place, right: Place) -> Place:
+        """The solution half-way; raises `NoConvergence` where it is not next to the cubic."""
         piece = self.locator.segment(left, right)
-        self.locator.place(piece, piece.length / 2)
+        return self.locator.place(piece, piece.length / 2)
 
     def _step(self, segment: Segment, found: Corrected, index: int | None, proved: bool, windows: tuple[Window, ...]) -> Step:
         inertia = None

@@ -7,12 +7,16 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from rodlab.analysis.point import Point
-from rodlab.lab.buckled import Found
+from rodlab.analysis.follow import Branch
+from rodlab.lab.branches import Found, Shown
+from rodlab.lab.curves import pieces
 from rodlab.lab.loads import ORDER, Extrapolated, Load
 
 GREYS = ("0.0", "0.35", "0.6")
+DASHES = (0, (4, 2.2))
 MARKS = {"end": "o", "trapezoid": "s"}
 
 
@@ -73,6 +77,82 @@ def shapes_picture(columns: Sequence[tuple[int, Sequence[Found], float]]) -> Fig
         axes.tick_params(labelsize=8)
     np.atleast_1d(panels)[0].set_ylabel("$z$")
     return fig
+
+
+def diagram_picture(shown: Sequence[Shown], known: Sequence[float]) -> Figure:
+    """The bifurcation diagram, perfect and imperfect, beside shapes along the imperfect strut's branch."""
+    fig, (left, right) = figure(8.6, 4.6, ncols=2, width_ratios=(1.75, 1))
+    by_name = {s.name: s.branch for s in shown}
+    most = float(by_name["imperfect"].points[-1].lam)
+    for name, branch in by_name.items():
+        imperfect = name in ("imperfect", "detached")
+        if name == "straight" or imperfect or branch.points[0].lam < most:
+            style = {"color": "0.5", "lw": 1.1} if imperfect else {"color": "k", "lw": 1.5}
+            for side in (1, -1) if name.startswith("mode") else (1,):
+                at = (0.35 if imperfect else 0.7) if side == 1 else None
+                curve(left, branch, "tip_angle", most, side=side, label_at=at, **style)
+    left.set_xlim(0, most)
+    left.set_ylim(-3.1, 3.1)
+    left.set_xlabel(r"load $\lambda$")
+    left.set_ylabel(r"tip angle $\phi_n$ (radians)")
+    left.legend(handles=_legend(), fontsize=8, frameon=False, loc="lower left")
+    _along(left, right, by_name["imperfect"], [1.0, 1.2, 1.7, 3.0], known[0])
+    return fig
+
+
+def curve(
+    axes: Axes, branch: Branch, measure: str, most: float, *, side: int = 1, label_at: float | None = 0.5, **style: Any
+) -> None:
+    """A branch in a bifurcation diagram: solid where stable, dashed where not, its index on it, its events marked."""
+    for part in pieces(branch, measure):
+        axes.plot(part.lam, side * part.value, ls="-" if part.stable else DASHES, **style)
+        seen = part.lam <= most
+        if label_at is not None and part.index is not None and seen.any():
+            _index_label(axes, part.lam[seen], side * part.value[seen], part.index, style["color"], label_at)
+    for event in branch.events:
+        if event.kind in ("fold", "branch point"):
+            filled = "w" if event.kind == "branch point" else style["color"]
+            mark = "o" if event.kind == "branch point" else "s"
+            value = side * event.point.measure(measure)
+            axes.plot(event.lam, value, mark, color=style["color"], mfc=filled, ms=5 if mark == "o" else 4, zorder=6)
+
+
+def _index_label(axes: Axes, lam: np.ndarray, value: np.ndarray, index: int, color: str, at: float) -> None:
+    """The index in a small circle on the curve, at a part of its length as drawn."""
+    wide, high = np.ptp(lam) or 1.0, np.ptp(value) or 1.0
+    length = np.append(0.0, np.cumsum(np.hypot(np.diff(lam) / wide, np.diff(value) / high)))
+    x, y = (float(np.interp(at * length[-1], length, values)) for values in (lam, value))
+    box = {"boxstyle": "circle,pad=0.18", "fc": "w", "ec": color, "lw": 0.6}
+    axes.annotate(str(index), (x, y), fontsize=7.5, ha="center", va="center", color=color, zorder=7, bbox=box)
+
+
+def _legend() -> list[Line2D]:
+    return [
+        Line2D([], [], color="k", lw=1.5, label="perfect, stable"),
+        Line2D([], [], color="k", lw=1.5, ls=DASHES, label="perfect, unstable"),
+        Line2D([], [], color="0.5", lw=1.1, label="imperfect"),
+        Line2D([], [], color="k", marker="o", mfc="w", ls="none", ms=5, label="branch point"),
+        Line2D([], [], color="0.5", marker="s", ls="none", ms=4, label="fold"),
+        Line2D([], [], color="k", marker=r"$\bigcirc$", mew=0.2, ls="none", ms=8, label="index, in the circle"),
+    ]
+
+
+def _along(left: Axes, right: Axes, branch: Branch, ratios: Sequence[float], own: float) -> None:
+    """Shapes at some loads of a branch, numbered in the diagram and drawn to scale beside it."""
+    right.plot([0, 0], [0, 1], color="0.6", lw=1.0, ls=(0, (4, 3)))
+    for number, ratio in zip("abcdefgh", ratios, strict=False):
+        point = branch.at(ratio * own)[0]
+        left.plot(point.lam, point.tip_angle, "o", color="0.5", ms=3.5)
+        left.annotate(number, (point.lam, point.tip_angle), (-9, 4), textcoords="offset points", fontsize=9, style="italic")
+        shape(right, point, color="0.25")
+        _label(right, point, number)
+    _clamp(right)
+    right.set_aspect("equal")
+    right.set_xlim(-0.2, 0.95)
+    right.set_ylim(-0.45, 1.2)
+    right.set_xlabel("$x$")
+    right.set_ylabel("$z$")
+    right.set_title("imperfect strut, states $a$ to $" + "abcdefgh"[len(ratios) - 1] + "$", fontsize=10)
 
 
 def shape(axes: Axes, point: Point, **style: Any) -> None:

@@ -4,25 +4,30 @@ Tables for the terminal; pictures and data for a folder.
 """
 
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from tqdm import tqdm
 
+from rodlab.analysis.equilibrium import equilibrium
+from rodlab.analysis.follow import Branch, follow
 from rodlab.files import write_whole
-from rodlab.lab.buckled import Found, buckled, straight
+from rodlab.lab.branches import Found, Shown, detached, mode_branch, on, straight, timed, trivial
 from rodlab.lab.loads import Extrapolated, Load, extrapolate, loads_against_n
-from rodlab.lab.picture import loads_picture, png, shapes_picture
+from rodlab.lab.picture import diagram_picture, loads_picture, png, shapes_picture
 from rodlab.lab.store import as_csv, as_json, framed
 from rodlab.lab.table import known_to, small, table
-from rodlab.mechanics.buckling import Buckling, buckling
+from rodlab.mechanics.buckling import buckling_loads
 from rodlab.mechanics.joints import RULES
 from rodlab.mechanics.strut import Strut
 
 SIZES = tuple(8 * 2**i for i in range(10))
 MODES = (1, 2, 3)
 JOINTS = 100
+IMPERFECTION = 0.1  # u_hat of the imperfect strut
+TO = 4.0  # end of the bifurcation diagram, over the first buckling load
 SHAPES = (1.02, 1.1, 1.3, 1.7, 2.5, 5.0)  # loads over the buckling load
 
 
@@ -32,15 +37,18 @@ def tour(folder: Path) -> tuple[dict[str, Any], str]:
     loads = list(_progress(loads_against_n(SIZES, MODES), "buckling loads", len(RULES) * len(SIZES) * len(MODES)))
     limits = [extrapolate([e for e in loads if (e.rule, e.mode) == (r, m)]) for r in RULES for m in MODES]
     strut = Strut(n=JOINTS)
-    known = buckling(strut, len(MODES))
-    states = list(_progress(before_and_after(strut, known), "equilibria", None))
-    columns = [(m, list(shapes(known, m)), float(known.loads[m - 1])) for m in MODES]
-    answer = framed("tour", time.perf_counter() - start, _answer(loads, limits, states))
+    known = [float(load) for load in buckling_loads(strut, len(MODES))]
+    shown = list(_progress(diagram(strut, known), "branches", len(MODES) + 3))
+    columns = [(m, list(shapes(shown[m].branch, m, known[m - 1])), known[m - 1]) for m in MODES]
+    states = list(before_and_after(strut, known, shown))
+    answer = framed("tour", time.perf_counter() - start, _answer(loads, limits, states, shown))
     files: dict[str, bytes | str] = {
+        "diagram.png": png(diagram_picture(shown, known)),
         "loads.png": png(loads_picture(loads, limits)),
         "shapes.png": png(shapes_picture(columns)),
         "loads.csv": as_csv(*_columns(answer["loads"])),
         "equilibria.csv": as_csv(*_columns(answer["equilibria"])),
+        "branches.csv": as_csv(*_columns(answer["branches"])),
         "tour.json": as_json(answer) + "\n",
     }
     answer["files"] = [str(write_whole(folder / name, content)) for name, content in files.items()]
@@ -48,27 +56,39 @@ def tour(folder: Path) -> tuple[dict[str, Any], str]:
     return answer, _text(answer, loads, limits, states)
 
 
-def before_and_after(strut: Strut, known: Buckling) -> Iterable[Found]:
+def diagram(strut: Strut, known: Sequence[float]) -> Iterator[Shown]:
+    """The branches of the picture: straight, the first modes, and an imperfect strut with the branch it detaches."""
+    ends = [max(SHAPES[: len(SHAPES) + 1 - m][-1] * known[m - 1], 1.1 * known[1]) for m in MODES]
+    yield timed("straight", lambda: trivial(strut, MODES[-1]))
+    for mode, end in zip(MODES, ends, strict=True):
+        yield timed(f"mode {mode}", partial(mode_branch, strut, mode, end))
+    bent = strut.replace(u_hat=IMPERFECTION)
+    yield timed("imperfect", lambda: follow(equilibrium(bent, 0.0), to=TO * known[0]))
+    yield timed("detached", lambda: follow(detached(bent, TO * known[0]), to=0.0))
+
+
+def before_and_after(strut: Strut, known: Sequence[float], shown: Sequence[Shown]) -> Iterator[Found]:
     """The straight strut around its first two loads, and every shape that has buckled by then."""
-    first, second = float(known.loads[0]), float(known.loads[1])
+    first, second = known[:2]
     for load in (0.8 * first, 1.1 * first, 2 * first, 1.1 * second):
         yield straight(strut, load)
         for mode in (1, 2):
-            if load > known.loads[mode - 1]:
-                yield from buckled(known, mode, [load])
+            if load > known[mode - 1]:
+                yield from on(shown[mode].branch, f"mode {mode}", [load])
 
 
-def shapes(known: Buckling, mode: int) -> Iterable[Found]:
+def shapes(branch: Branch, mode: int, own: float) -> Iterator[Found]:
     """The shapes of a mode for the picture; a higher mode fills its panel at a lower load."""
-    own = float(known.loads[mode - 1])
-    return buckled(known, mode, [ratio * own for ratio in SHAPES[: len(SHAPES) + 1 - mode]])
+    return on(branch, f"mode {mode}", [ratio * own for ratio in SHAPES[: len(SHAPES) + 1 - mode]])
 
 
 def _progress(entries: Iterable[Any], what: str, total: int | None) -> Iterable[Any]:
     return tqdm(entries, desc=what, total=total, delay=2, leave=False)
 
 
-def _answer(loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found]) -> dict[str, Any]:
+def _answer(
+    loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found], shown: Sequence[Shown]
+) -> dict[str, Any]:
     return {
         "loads": [{**vars(e), "error": e.error} for e in loads],
         "extrapolated": [{**vars(e), "error": e.error} for e in limits],
@@ -80,6 +100,15 @@ def _answer(loads: Sequence[Load], limits: Sequence[Extrapolated], states: Seque
                 "index_verified": e.point.index_verified, "newton": len(e.point.newton), "seconds": e.seconds,
             }
             for e in states
+        ],
+        "branches": [
+            {
+                "branch": s.name, "from": s.branch.points[0].lam, "to": s.branch.points[-1].lam, "points": len(s.branch),
+                "proved": sum(p.proved for p in s.branch.points), "checked": sum(p.checked for p in s.branch.points),
+                "events": "; ".join(f"{e.kind} {e.lam:.12g}" for e in s.branch.events[:-1]), "end": s.branch.reason,
+                "seconds": s.seconds,
+            }
+            for s in shown
         ],
     }  # fmt: skip
 
@@ -105,8 +134,22 @@ def _text(answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrap
         )
     )  # fmt: skip
     parts.append(
+        table(
+            f"Branches of the strut, n = {JOINTS}, perfect and with u_hat = {IMPERFECTION}",
+            ["branch", "from", "to", "points", "proved", "checked", "ms", "events"],
+            [
+                [
+                    b["branch"], f"{b['from']:.4f}", f"{b['to']:.4f}", b["points"], b["proved"], b["checked"],
+                    f"{1e3 * b['seconds']:.0f}", b["events"],
+                ]
+                for b in answer["branches"]
+            ],
+        )
+    )  # fmt: skip
+    parts.append(
         "index: negative eigenvalues of the second variation, verified by inertia (? where it is not); 0 is stable.\n"
-        "+-: error of the tip angle against the exact solution, estimated from above; height and energy have no estimate."
+        "+-: error of the tip angle against the exact solution, estimated from above; height and energy have no estimate.\n"
+        "proved: steps proved to stay on their branch; checked: by every test short of a proof, as around branch points."
     )
     written = "\n".join(f"  {path}" for path in answer["files"])
     parts.append(f"Written in {answer['seconds']:.1f} s:\n{written}")

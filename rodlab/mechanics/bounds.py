@@ -18,6 +18,11 @@ if TYPE_CHECKING:
 Bound = Callable[[Any, float], tuple[Any, Any]]  # (du, dlam) -> (d, c)
 
 
+def unknown(_du: Any, _dlam: float) -> tuple[Any, Any]:
+    """No bound."""
+    return np.inf, np.inf
+
+
 def lipschitz(strut: "Strut", u: Array, lam: float) -> Bound:
     """Bounds on the change of Jacobian and d_lam, as a function of how far angles (entrywise) and load are from (u, lam).
 
@@ -25,7 +30,7 @@ def lipschitz(strut: "Strut", u: Array, lam: float) -> Bound:
     the distances. Infinite for a foundation or a term of one's own.
     """
     if any(term.energy is not None for term in strut.terms) or strut.kernel().hardens:
-        return lambda du, dlam: (np.inf, np.inf)
+        return unknown
     hw = strut.joints.h if strut.joints.weights is None else strut.joints.h * strut.joints.weights
     sine, cosine, carried = np.abs(np.sin(u)), np.abs(np.cos(u)), strut.carried
 

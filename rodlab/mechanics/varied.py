@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from rodlab.mechanics import bounds
 from rodlab.mechanics.assembly import balance, full
-from rodlab.mechanics.bounds import Bound
 from rodlab.numerics.arrays import Array, number
 
 if TYPE_CHECKING:
@@ -139,12 +139,16 @@ class VariedStrut:
             "energy": lambda u, value: float(self._at(value).energy(u, self.lam)),
         }
 
-    def lipschitz(self, u: Array, value: float) -> Bound:
+    def lipschitz(self, u: Array, value: float) -> bounds.Bound:
         """As the strut's; known where the parameter takes no part in the Hessian: rest angles, the clamp, an end torque."""
         if self.name not in ("u_hat", "beta", "phi0", "beta0", "tau"):
-            return lambda du, dvalue: (np.inf, np.inf)
+            return bounds.unknown
         bound = self._at(value).lipschitz(u, self.lam)
-        return lambda du, dvalue: (bound(du, 0.0)[0], 0.0)
+
+        def unmoved(du: Any, _: float) -> tuple[Any, Any]:
+            return bound(du, 0.0)[0], 0.0
+
+        return unmoved
 
     def embedding(self, value: float) -> tuple[float, float]:
         """As the strut's."""
