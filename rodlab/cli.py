@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 WELCOME = f"""rodlab {__version__}: a teaching laboratory for elastic rods
 
 Five commands to try:
-  rodlab tour                                     the strut, its buckling loads and shapes, as n grows
-  rodlab buckling -n 1000                         the first three buckling loads, with error bounds
-  rodlab buckling -n 400 --rule trapezoid --K "(1+s)**2"
-  rodlab buckling -n 401 --rule trapezoid --K "Piecewise((1, s < 1/2), (1000, True))" --json
-  rodlab buckling --help                          every option of a verb
+  rodlab tour                                     the strut: branches, buckling loads and shapes, as n grows
+  rodlab buckling -n 400 --rule trapezoid --K "(1+s)**2"      buckling loads, with error bounds
+  rodlab follow -n 100 --u-hat 0.01 --to 30       a branch with its events; --mode 1 for the one that buckles
+  rodlab scenes                                   the situations of the notes by name
+  rodlab run imperfect --out imperfect            one of them: branches, events, picture and data
 """
 
 
@@ -96,6 +96,68 @@ def buckling(chosen: argparse.Namespace) -> int:
     return 0
 
 
+def follow(chosen: argparse.Namespace) -> int:
+    """rodlab follow"""
+    from rodlab.lab import answers
+    from rodlab.lab.following import followed
+    from rodlab.lab.store import as_json, framed
+
+    start = time.perf_counter()
+    arguments = {"n": chosen.n, "K": _number_or_text(chosen.K), "u_hat": _number_or_text(chosen.u_hat), "rule": chosen.rule}
+    strut, branch = followed(
+        {**arguments, "breaks": tuple(chosen.breaks)}, chosen.start, chosen.to, mode=chosen.mode, guess=chosen.guess,
+        step=chosen.step, max_points=chosen.max_points, watch=_watched("points", chosen.n),
+    )  # fmt: skip
+    written = [str(branch.save(chosen.out))] if chosen.out else []
+    seconds = time.perf_counter() - start
+    if chosen.json:
+        asked = {"model": chosen.model, **arguments, "from": chosen.start, "to": chosen.to, "mode": chosen.mode}
+        print(as_json(framed("follow", seconds, {**asked, **answers.of_branch(branch), "files": written})))
+    else:
+        title = f"{'Main branch' if chosen.mode is None else f'Branch of mode {chosen.mode}'} of {strut!r}"
+        print(answers.points_table(title, branch), answers.events_table(branch), sep="\n\n")
+        print(f"in {1e3 * seconds:.0f} ms" + "".join(f"; written: {path}" for path in written))
+    return 0 if branch.completed else _complain("follow", branch.reason, 3)
+
+
+def scenes(chosen: argparse.Namespace) -> int:
+    """rodlab scenes"""
+    from rodlab.lab.scene import scenes
+    from rodlab.lab.store import as_json, framed
+
+    known = scenes()
+    if chosen.json:
+        said = [{"name": s.name, "title": s.title, "source": s.source, "about": s.about} for s in known]
+        print(as_json(framed("scenes", 0.0, {"scenes": said})))
+    else:
+        for s in known:
+            print(f"{s.name:22} {s.title} [{s.source}]\n{'':22} {s.about}")
+        print("\nrodlab run NAME, or the path of your own: the house's files are in the folder rodlab/lab/scenes")
+    return 0
+
+
+def run(chosen: argparse.Namespace) -> int:
+    """rodlab run"""
+    from pathlib import Path
+
+    from rodlab.lab.running import run_scene
+    from rodlab.lab.store import as_json
+
+    answer, text, completed = run_scene(chosen.scene, Path(chosen.out) if chosen.out else None, watch=_watched("points", 10**6))
+    print(as_json(answer) if chosen.json else text)
+    return 0 if completed else _complain("run", "a branch of the scene could not be followed to its end", 3)
+
+
+def _watched(what: str, work: int) -> Any:
+    """A callback that counts on stderr what may take longer than two seconds."""
+    if work < 10_000:
+        return None
+    from tqdm import tqdm
+
+    bar = tqdm(desc=what, delay=2, leave=False)
+    return lambda _: bar.update()
+
+
 def _progress(entries: Any, what: str, total: int, work: int) -> Any:
     """A progress bar for what may take longer than two seconds."""
     if work < 1_000_000:
@@ -115,13 +177,34 @@ def _parser() -> argparse.ArgumentParser:
     verb.add_argument("--out", default="rodlab-tour", metavar="DIR", help="folder for pictures and data (default: %(default)s)")
 
     verb = _verb(verbs, buckling, "buckling loads of a straight strut, with error bounds")
-    verb.add_argument("--model", choices=["strut"], default="strut", help="what buckles (default: %(default)s)")
-    verb.add_argument("-n", type=int, default=1000, help="number of joints (default: %(default)s)")
+    _strut_options(verb, 1000)
+    verb.add_argument("--modes", type=int, help="how many loads (default: 3)")
+
+    verb = _verb(verbs, follow, "follow a branch of a strut to a load, with its folds and branch points")
+    _strut_options(verb, 100)
+    verb.add_argument("--u-hat", default="0", help="unstressed curvature: a number or an expression in s (default: 0)")
+    verb.add_argument("--from", dest="start", type=float, default=0.0, metavar="LAM", help="load to start at (default: 0)")
+    verb.add_argument("--to", type=float, required=True, metavar="LAM", help="load to end at")
+    verb.add_argument("--mode", type=int, help="the branch that buckles in this mode, from its branch point")
+    verb.add_argument("--guess", help="first guess of the angles at --from, an expression in s (default: unstressed)")
+    verb.add_argument("--step", type=float, help="first and longest length of a step (default: by error)")
+    verb.add_argument("--max-points", type=int, default=10_000, help="points at most (default: %(default)s)")
+    verb.add_argument("--out", metavar="FILE", help="also save the branch, to a .json or .npz file")
+
+    _verb(verbs, scenes, "the situations of the notes by name")
+
+    verb = _verb(verbs, run, "run a scene: its branches, events, picture and data")
+    verb.add_argument("scene", metavar="SCENE", help="a name that `rodlab scenes` lists, or the path of a .toml file")
+    verb.add_argument("--out", metavar="DIR", help="folder for the picture and the data (default: nothing is written)")
+    return parser
+
+
+def _strut_options(verb: argparse.ArgumentParser, n: int) -> None:
+    verb.add_argument("--model", choices=["strut"], default="strut", help="the model (default: %(default)s)")
+    verb.add_argument("-n", type=int, default=n, help="number of joints (default: %(default)s)")
     verb.add_argument("--rule", default="end", help="end or trapezoid (default: %(default)s)")
     verb.add_argument("--K", default="1", help='bending stiffness: a number or an expression in s, "1+s" (default: 1)')
-    verb.add_argument("--breaks", type=float, nargs="+", default=[], metavar="S", help="where K jumps")
-    verb.add_argument("--modes", type=int, help="how many loads (default: 3)")
-    return parser
+    verb.add_argument("--breaks", type=float, nargs="+", default=[], metavar="S", help="where K or u_hat jumps")
 
 
 def _verb(verbs: Any, run: Any, what: str) -> argparse.ArgumentParser:

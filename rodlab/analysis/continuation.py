@@ -61,12 +61,13 @@ class Step(NamedTuple):
 
 
 def branch(
-    p: Point, step: float = 0.1, *, toward: float | None = None, natural: bool = False, scale: float = 1.0
+    p: Point, step: float = 0.1, *, toward: float | None = None, natural: bool = False, scale: float | None = None
 ) -> Iterator[Point]:
     """The points of the branch through p, p itself left out: endless and lazy.
 
-    step: first and longest length of a step, |.|^2 = inner(du, du) + (dlam / scale)^2. Direction: the point's tangent if it has
-    one, else of growing load, or towards the load `toward`. natural: steps in the load alone, which end at a fold.
+    step: first and longest length of a step, |.|^2 = inner(du, du) + (dlam / scale)^2, scale 1 unless given. Direction: the
+    point's tangent if it has one, else of growing load, or towards the load `toward`. natural: steps in the load alone,
+    which end at a fold.
     Each point tells how its step was accepted: `p.proved` or `p.checked`.
     Raises `NoConvergence` where the branch can be followed no further; `ValueError` for wrong arguments or derivatives.
 
@@ -85,12 +86,12 @@ class Walk:
     """Where a continuation stands: the last point with its tangent, the point before, and the length of the next step."""
 
     def __init__(
-        self, p: Point, *, step: float | None, toward: float | None = None, natural: bool = False, scale: float = 1.0
+        self, p: Point, *, step: float | None, toward: float | None = None, natural: bool = False, scale: float | None = None
     ) -> None:
         if not isinstance(p, Point):
             raise ValueError(f"p must be a Point, as equilibrium returns it; it is {p!r:.60}")
         self.longest = math.inf if step is None else number("step", step, above=0.0)
-        self.curve = Curve(p.equations, number("scale", scale, above=0.0))
+        self.curve = Curve(p.equations, _scale(p, step, toward) if scale is None else number("scale", scale, above=0.0))
         self.natural, self.prover, self.locator = natural, Prover(self.curve), Locator(self.curve)
         check_derivatives(p.equations, p.u, p.lam)
         y = np.append(p.u, p.lam)
@@ -141,7 +142,7 @@ class Walk:
         row = self.row(here.tangent)
         guess = self._predicted(s, row)
         found = curve.correct(guess, row)
-        miss = curve.norm(found.y - guess) / s
+        miss = self._miss(found.y, guess, s)
         if miss > MISS:
             raise NoConvergence(f"the prediction was wrong by {miss:.2g} of the step", found.history)
         segment = Segment(here.y, here.tangent, found.y, curve.tangent(found.y, here.tangent), row)
@@ -152,6 +153,14 @@ class Walk:
         self.before, self.here = here, step.b
         self.length = min(self.longest, s * min(GROWTH, max(0.3, (AIM / max(miss, 1e-12)) ** (1 / 3))))
         return step
+
+    def _miss(self, y: Array, guess: Array, s: float) -> float:
+        """Error of the prediction as a part of the step; that of the unknowns by itself, lest long steps in the load hide it."""
+        curve, off = self.curve, y - guess
+        moved, here = y - self.here.y, self.here.y.copy()
+        off[-1] = moved[-1] = here[-1] = 0.0
+        unknowns = curve.norm(off) / (2 * curve.norm(moved) + 0.1 * curve.norm(here) + 1e-6 * s)
+        return max(curve.norm(y - guess) / s, unknowns)
 
     def _predicted(self, s: float, row: Array) -> Array:
         here, before = self.here, self.before
@@ -180,7 +189,7 @@ class Walk:
             start, stop = group[0], group[-1]
             left = first if start.start == 0 else self._gate(segment, start.start, spans)
             right = b if stop is spans[-1] else self._gate(segment, stop.stop, spans)
-            kinds = {span.kind for span in group}
+            kinds: set[str] = {span.kind for span in group}
             if "open" in kinds and self.prover.proves and left.index == right.index:
                 kinds = self._by_parts(left, right, PARTS)
                 if kinds == {"regular"}:
@@ -224,6 +233,11 @@ class Walk:
             tangent=segment.tb, accepted="proved" if proved else "checked", known_inertia=inertia,
         )  # fmt: skip
         return Step(segment, self.here, Place(segment.b, segment.tb, index), proved, windows, point)
+
+
+def _scale(p: Point, step: float | None, toward: float | None) -> float:
+    """1 where a length is given in it; else a tenth of the loads in question, so that loads and unknowns weigh alike."""
+    return 1.0 if step is not None else max(abs(p.lam), abs(toward or 0.0)) / 10 or 1.0
 
 
 def _groups(spans: list[Span]) -> Iterator[list[Span]]:

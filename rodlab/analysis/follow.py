@@ -103,12 +103,17 @@ def piece(a: Point, b: Point) -> Segment:
 
 def _between(a: Point, b: Point, lam: float) -> Point:
     """The point at a load between two neighbours."""
-    segment, curve = piece(a, b), Curve(b.equations)
+    segment = piece(a, b)
+    return at_load(Curve(b.equations), segment, passages(segment, lam)[0], lam, b.accepted)
+
+
+def passages(segment: Segment, lam: float) -> list[float]:
+    """Parts of its length at which the cubic passes a load; its first end is not counted."""
     grid = np.linspace(0.0, 1.0, 65)
-    loads = segment.loads(grid) - lam
-    i = int(np.flatnonzero(loads[:-1] * loads[1:] <= 0)[0])
-    part = float(grid[i] + (grid[i + 1] - grid[i]) * loads[i] / (loads[i] - loads[i + 1]))
-    return at_load(curve, segment, part, lam, b.accepted)
+    off = segment.loads(grid) - lam
+    off[0], off[-1] = segment.a[-1] - lam, segment.b[-1] - lam
+    passed = np.flatnonzero(((off[:-1] * off[1:] < 0) | (off[1:] == 0)) & (off[:-1] != 0))
+    return [float(grid[i] + (grid[i + 1] - grid[i]) * off[i] / (off[i] - off[i + 1])) for i in passed]
 
 
 def at_load(curve: Curve, segment: Segment, part: float, lam: float, accepted: str, known: Inertia | None = None) -> Point:
@@ -125,12 +130,12 @@ def at_load(curve: Curve, segment: Segment, part: float, lam: float, accepted: s
 
 def follow(
     p: Point, to: float, step: float | None = None, events: Any = (fold, branch_point), within: Within = None,
-    max_points: int = 10_000, *, scale: float = 1.0, watch: Callable[[Point], Any] | None = None,
+    max_points: int = 10_000, *, scale: float | None = None, watch: Callable[[Point], Any] | None = None,
 ) -> Branch:  # fmt: skip
     """The branch through p as far as the load `to`, with the events met on the way.
 
     step: first and longest length of a step, |.|^2 = inner(du, du) + (dlam / scale)^2; None leaves it to the error of the
-    predictions. Direction: the point's tangent if it has one, else towards `to`. within: a function of a point that
+    predictions. scale: 1 where a step is given, else a tenth of the loads in question. Direction: the point's tangent if it has one, else towards `to`. within: a function of a point that
     is true inside, or ranges of measures, {"tip_angle": (-3, 3)} or {"lam": (0, 50)}. Ends exactly at `to`; on leaving
     `within`; on closing; after max_points; and, having set out towards `to`, back at p.lam. watch: called with every
     point as it is found.
@@ -223,20 +228,16 @@ class _Stops:
         return min(found, key=lambda entry: entry[0]) if found else None
 
     def _at_loads(self, step: Step) -> Iterator[tuple[float, Point, str]]:
-        segment = step.segment
-        grid = np.linspace(0.0, 1.0, 33)
-        loads = segment.loads(grid)
-        loads[0], loads[-1] = segment.a[-1], segment.b[-1]
-        for load, reason in self.loads.items():
-            passed = (loads[:-1] - load) * (loads[1:] - load) < 0
-            passed |= (loads[1:] == load) & (loads[:-1] != load)
-            for i in np.flatnonzero(passed)[:1]:
-                part = float(grid[i] + (grid[i + 1] - grid[i]) * (load - loads[i]) / (loads[i + 1] - loads[i]))
-                yield part, self._at_load(step, part, load), reason
-
-    def _at_load(self, step: Step, part: float, load: float) -> Point:
         known = step.point.known_inertia if not step.windows else None
-        return at_load(self.walk.curve, step.segment, part, load, step.point.accepted, known)
+        for load, reason in self.loads.items():
+            for part in passages(step.segment, load)[:2]:
+                try:
+                    yield part, at_load(self.walk.curve, step.segment, part, load, step.point.accepted, known), reason
+                except NoConvergence:
+                    if (step.segment.a[-1] - load) * (step.segment.b[-1] - load) <= 0:
+                        raise
+                    continue  # only the cubic passes this load, the branch itself turns before
+                break
 
     def _closing(self, step: Step) -> Iterator[tuple[float, Point, str]]:
         segment, curve, start = step.segment, self.walk.curve, self.start

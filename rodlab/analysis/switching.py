@@ -44,7 +44,7 @@ def switch(event: Event) -> list[Point]:
         raise ValueError("event must come from following a branch; one that was read from a file needs its model")
     if not event.converged:
         raise ValueError(f"event must have converged; it did not: {event.reason}")
-    curve = Curve(event.point.equations)
+    curve = Curve(event.point.equations, _load_size(event))
     y = np.append(event.point.u, event.lam)
     null = _null(curve, y, event)
     if null.right.shape[1] > MOST:
@@ -58,6 +58,12 @@ def switch(event: Event) -> list[Point]:
             failure = why
             rho /= 4
     raise NoConvergence(f"no half-branch could be told at lam = {event.lam:.9g}: {failure}", ())
+
+
+def _load_size(event: Event) -> float:
+    """A size of loads here, so that lengths do not depend on their units."""
+    assert event.fence is not None
+    return max(abs(event.lam), 100 * abs(float(event.fence.b[-1] - event.fence.a[-1]))) or 1.0
 
 
 def _null(curve: Curve, y: Array, event: Event) -> NearNull:
@@ -76,6 +82,7 @@ class _Leaving:
         self.fence: Segment = event.fence
         self.parent = self.fence.derivative(float(self.fence.row @ (reduced.y - self.fence.a)))
         self.polynomial = Polynomial(reduced, rho, self._load_scale())
+        self.near = Curve(curve.equations, self.polynomial.mu0 / rho)  # rho and mu_0 weigh alike
         if self.polynomial.misfit > FIT:
             raise NoConvergence(f"the cubic misses the equations by {self.polynomial.misfit:.1g}", ())
 
@@ -94,11 +101,11 @@ class _Leaving:
         reduced, rho = self.reduced, self.rho
         p = reduced.p
         b = max(float(np.abs(reduced.at(sign * rho * e, 0.0)[1]).max()) for e in np.eye(p) for sign in (1, -1))
-        mu = 1e-2 * rho * max(1.0, abs(float(reduced.y[-1])))
+        mu = 1e-2 * rho * self.curve.scale
         side = [reduced.at(0.1 * rho * e, s * mu)[1] for e in np.eye(p) for s in (1, 0)]
         rate = max(float(np.abs(side[2 * j] - side[2 * j + 1]).max()) for j in range(p)) / (0.1 * rho * mu)
         scale = b / (rho * rate) if rate > 0 and b > 1e-14 * rho else mu
-        return min(max(scale, 1e-8 * mu), 0.5 * (1 + abs(float(reduced.y[-1]))))
+        return min(max(scale, 1e-8 * mu), self.curve.scale)
 
     def _roots(self) -> Iterator[Array]:
         p, polynomial = self.reduced.p, self.polynomial
@@ -114,8 +121,9 @@ class _Leaving:
 
     def _complete(self, roots: Array) -> bool:
         """Poincare and Hopf: signs of the tangential field sum to 0 on the circle, 2 on S^0 and S^2, if all cross one way."""
-        w = np.linalg.eigvals(self.polynomial.rate)
-        if self.polynomial.turns or np.abs(w.imag).max() > 1e-6 * np.abs(w).max() or w.real.min() * w.real.max() <= 0:
+        rate = self.polynomial.rate
+        w = np.linalg.eigvalsh(rate + rate.T)
+        if self.polynomial.turns or float(w.min() * w.max()) <= 0:
             return True
         signs = 0
         for J, xm in zip(self.polynomial.jacobian(roots), roots, strict=True):
@@ -152,8 +160,7 @@ class _Leaving:
         else:
             row = np.append(np.zeros(away.size - 1), np.sign(away[-1]))
         found = curve.correct(guess, row, limit=12)
-        moved = curve.norm(found.y - guess)
-        size = curve.norm(guess - reduced.y)
+        moved, size = self.near.norm(found.y - guess), self.near.norm(guess - reduced.y)
         if moved > 0.2 * size:
             raise NoConvergence(f"a half-branch was moved by {moved / size:.2g} of its distance", found.history)
         if not self._left(found.y):
@@ -163,7 +170,7 @@ class _Leaving:
 
     def _left(self, y: Array) -> bool:
         """True when a solution is not on the followed branch: that is computed at the same place and is elsewhere."""
-        curve, parent = self.curve, self.parent / self.curve.norm(self.parent)
+        curve, parent = self.near, self.parent / self.near.norm(self.parent)
         row = curve.row(parent)
         guess = self.reduced.y + float(row @ (y - self.reduced.y)) * parent
         away, distance = curve.norm(y - guess), curve.norm(y - self.reduced.y)
@@ -176,4 +183,4 @@ class _Leaving:
         return curve.norm(y - beside) > 0.1 * distance
 
     def _apart(self, p: Point, q: Point) -> bool:
-        return self.curve.norm(np.append(p.u - q.u, p.lam - q.lam)) > 1e-3 * self.rho
+        return self.near.norm(np.append(p.u - q.u, p.lam - q.lam)) > 1e-3 * self.rho

@@ -4,7 +4,6 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-
 from rodlab.analysis.equilibrium import equilibrium
 from rodlab.analysis.events import branch_point
 from rodlab.analysis.follow import Branch, follow

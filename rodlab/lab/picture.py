@@ -9,13 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from rodlab.analysis.point import Point
 from rodlab.analysis.follow import Branch
+from rodlab.analysis.point import Point
 from rodlab.lab.branches import Found, Shown
 from rodlab.lab.curves import pieces
 from rodlab.lab.loads import ORDER, Extrapolated, Load
 
 GREYS = ("0.0", "0.35", "0.6")
+LABELS = {"tip_angle": r"tip angle $\phi_n$ (radians)", "height": "height", "energy": "energy"}
 DASHES = (0, (4, 2.2))
 MARKS = {"end": "o", "trapezoid": "s"}
 
@@ -97,6 +98,25 @@ def diagram_picture(shown: Sequence[Shown], known: Sequence[float]) -> Figure:
     left.set_ylabel(r"tip angle $\phi_n$ (radians)")
     left.legend(handles=_legend(), fontsize=8, frameon=False, loc="lower left")
     _along(left, right, by_name["imperfect"], [1.0, 1.2, 1.7, 3.0], known[0])
+    return fig
+
+
+def branches_picture(shown: Sequence[Shown], measure: str, label: str) -> Figure:
+    """All branches of a scene in one diagram, a measure against what is followed."""
+    fig, axes = figure(6.2, 4.4)
+    most = max(float(s.branch.lam.max()) for s in shown)
+    for s in shown:
+        curve(axes, s.branch, measure, most, color="k", lw=1.4)
+    axes.margins(x=0.02, y=0.08)
+    axes.set_xlabel(label)
+    axes.set_ylabel(LABELS.get(measure, measure))
+    handles = [
+        Line2D([], [], color="k", lw=1.5, label="stable"),
+        Line2D([], [], color="k", lw=1.5, ls=DASHES, label="unstable"),
+        *_legend()[3:],
+    ]
+    handles[3].set(color="k", markerfacecolor="k")
+    axes.legend(handles=handles, fontsize=8, frameon=False, ncols=5, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     return fig
 
 

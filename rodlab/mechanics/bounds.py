@@ -1,7 +1,7 @@
 """How far the derivatives of the strut's energy can change near by, and what rounding does to its gradient.
 
-The load's part of the Hessian is -lam h w cos(phi) on the diagonal, and the cosine changes by at most |dphi| (|sin phi| + |dphi| / 2):
-little where the strut is nearly straight. This is what lets a step of a continuation be proved (`rodlab.analysis.proof`).
+The load's part of the Hessian is -lam h w cos(phi) on the diagonal, and the cosine changes by at most |dphi| (|sin phi| +
+|dphi| / 2): little where the strut is nearly straight. This lets a step of a continuation be proved (`rodlab.analysis.proof`).
 """
 
 from collections.abc import Callable

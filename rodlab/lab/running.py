@@ -1,0 +1,43 @@
+"""`rodlab run`: a scene's branches, tables for the terminal, picture and data for a folder; what it does not name is left out."""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from rodlab.analysis.point import Point
+from rodlab.files import write_whole
+from rodlab.lab.answers import branches_table, of_branch
+from rodlab.lab.branches import Shown
+from rodlab.lab.scene import Scene, run, scene
+from rodlab.lab.store import as_json, framed
+
+
+def run_scene(name: str, folder: Path | None, watch: Callable[[Point], Any] | None = None) -> tuple[dict[str, Any], str, bool]:
+    """(answer for JSON, text for a person, whether every branch was followed to its end)."""
+    start, chosen = time.perf_counter(), scene(name)
+    shown = list(run(chosen, watch))
+    said = [{"branch": s.name, "seconds": s.seconds, **of_branch(s.branch)} for s in shown]
+    about = {"scene": chosen.name, "title": chosen.title, "source": chosen.source, "model": dict(chosen.model)}
+    answer = framed("run", time.perf_counter() - start, {**about, "branches": said})
+    answer["files"] = [] if folder is None else [str(path) for path in _written(chosen, shown, answer, folder)]
+    title = f"{chosen.title} [{chosen.source}]" if chosen.source else chosen.title
+    parts = [part for part in (chosen.about, branches_table(title, shown)) if part]
+    parts.append(f"in {answer['seconds']:.2f} s" + "".join(f"\n  {path}" for path in answer["files"]))
+    return answer, "\n\n".join(parts), all(s.branch.completed for s in shown)
+
+
+def _written(chosen: Scene, shown: list[Shown], answer: dict[str, Any], folder: Path) -> list[Path]:
+    files = [Path(s.branch.save(folder / f"branch-{i}.json")) for i, s in enumerate(shown, start=1)]
+    files.append(write_whole(folder / "scene.json", as_json(answer) + "\n"))
+    if chosen.draw:
+        from rodlab.lab.picture import branches_picture, png
+
+        picture = branches_picture(shown, str(chosen.draw.get("y", "tip_angle")), _label(chosen))
+        files.append(write_whole(folder / "diagram.png", png(picture)))
+    return files
+
+
+def _label(chosen: Scene) -> str:
+    """What is followed: the load, or the name of a parameter."""
+    return str(chosen.model.get("vary", "load $\\lambda$")).replace("u_hat", r"unstressed curvature $\hat u$")
