@@ -209,9 +209,7 @@ def test_within_limits_and_max_points():
 
 
 def test_a_branch_that_cannot_be_followed_says_why_and_keeps_what_was_found():
-    wall = Scalar(
-        lambda u, lam: u - lam if lam < 1 else np.nan, lambda u, lam: 1.0 if lam < 1 else np.nan, lambda u, lam: -1.0
-    )
+    wall = Scalar(lambda u, lam: u - lam if lam < 1 else np.nan, lambda u, lam: 1.0 if lam < 1 else np.nan, lambda u, lam: -1.0)
     b = rl.follow(rl.equilibrium(wall, 0.0, [0.1]), to=2.0)
     assert not b.completed
     assert b.points[-1].lam == pytest.approx(1.0, abs=1e-6)

@@ -101,9 +101,9 @@ def test_two_struts_nearly_alike(e, step):
 def test_bratu_through_a_class_of_ten_lines():
     folds = []
     for n in (31, 63, 127):
-        b = rl.follow(rl.equilibrium(Bratu(n), 0.0, np.zeros(n)), to=4.0)
+        b = rl.follow(rl.equilibrium(Bratu(n), 0.0, np.zeros(n)), to=4.0, within=lambda p: p.u.max() < 4)
         assert kinds(b) == ["fold", "end"]
-        assert b.reason == "back at lam = 0" or b.points[-1].lam == 0.0
+        assert b.reason == "left the limits given"
         folds.append(b.events[0].lam)
     exact = 3.513830719125162
     errors = np.abs(np.array(folds) - exact)
@@ -208,7 +208,7 @@ def test_the_index_between_events_is_that_of_dense_eigenvalues():
 @pytest.mark.parametrize("sparse", [False, True])
 def test_eight_half_branches_of_a_double_point(sparse):
     pair = Struts(rl.Strut(n=20), rl.Strut(n=20), sparse=sparse)
-    b = rl.follow(rl.equilibrium(pair, 0.5, np.zeros(40)), to=30.0, step=1.0)
+    b = rl.follow(rl.equilibrium(pair, 0.5, np.zeros(40)), to=5.0, step=1.0)
     one = rl.Strut(n=20)
     for e in b.events[:-1]:
         starts = rl.switch(e)
@@ -373,7 +373,9 @@ def test_a_saved_branch_is_read_whole_and_goes_on(tmp_path, suffix):
     assert repr(c.points[0].equations) == repr(strut)
     assert [e.lam for e in c.events] == [e.lam for e in b.events]
     assert [p.lam for p in c.points] == [p.lam for p in b.points]
-    assert all((p.u == q.u).all() and p.index == q.index and p.accepted == q.accepted for p, q in zip(b.points, c.points, strict=True))
+    assert all(
+        (p.u == q.u).all() and p.index == q.index and p.accepted == q.accepted for p, q in zip(b.points, c.points, strict=True)
+    )
     assert [p.lam for p in rl.switch(c.events[0])] == pytest.approx([p.lam for p in rl.switch(b.events[0])], abs=1e-12)
     assert [e.lam for e in c.extended(30.0).events] == pytest.approx([e.lam for e in b.extended(30.0).events], abs=1e-12)
     assert c.save(tmp_path / f"c{suffix}").exists()

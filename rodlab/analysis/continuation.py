@@ -18,35 +18,24 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rodlab.analysis.crossings import Crossing, Locator, Place
+from rodlab.analysis.crossings import Locator, Place
 from rodlab.analysis.curve import Corrected, Curve, Segment
 from rodlab.analysis.derivatives import check_derivatives
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
-from rodlab.analysis.proof import Prover, Span
+from rodlab.analysis.proof import Prover
+from rodlab.analysis.shown import Inspector, Unverified, Window
 from rodlab.numerics.arrays import Array, number
 from rodlab.numerics.inertia import Inertia
+from rodlab.numerics.nullspace import near_null
 
 TURN = 0.8  # least cosine between the tangents at the ends of a step
 MISS = 0.1  # greatest error of a prediction, as a part of the step
 AIM = 0.01  # the error that the next step aims at
 GROWTH = 3.0  # longest step after a step
-PARTS = 3  # times a part that stays open is halved, the solution half-way computed
+MOST = 200  # lengths tried for one step
+UNVERIFIED = 3  # ends without a verified index before one is accepted
 SHORTEST = 1e-11  # of the size of the point: no shorter step is tried
-
-
-class Window(NamedTuple):
-    """A part of a step where the Jacobian may be singular: a proved fold, or what crossings were found in it."""
-
-    a: Place
-    b: Place
-    fold: bool
-    crossings: tuple[Crossing, ...]
-
-    @property
-    def turns(self) -> bool:
-        """True when the load turns back between its ends."""
-        return float(self.a.tangent[-1]) * float(self.b.tangent[-1]) < 0
 
 
 class Step(NamedTuple):
@@ -93,6 +82,7 @@ class Walk:
         self.longest = math.inf if step is None else number("step", step, above=0.0)
         self.curve = Curve(p.equations, _scale(p, step, toward) if scale is None else number("scale", scale, above=0.0))
         self.natural, self.prover, self.locator = natural, Prover(self.curve), Locator(self.curve)
+        self.inspector = Inspector(self.prover, self.locator)
         check_derivatives(p.equations, p.u, p.lam)
         y = np.append(p.u, p.lam)
         self.here = Place(y, self._start(p, y, toward), self.curve.index(y))
@@ -104,7 +94,11 @@ class Walk:
             return np.asarray(p.tangent / self.curve.norm(p.tangent))
         ahead = np.zeros_like(y)
         ahead[-1] = 1.0 if toward is None or toward >= p.lam else -1.0
-        return self.curve.tangent(y, ahead)
+        try:
+            return self.curve.tangent(y, ahead)
+        except NoConvergence:  # at a fold the tangent is the null vector
+            near = near_null(self.curve.jacobian(y), 1, symmetric=self.curve.symmetric(y))
+            return self.curve.tangent(y, np.append(near.right[:, 0], 0.0))
 
     def _first(self, p: Point, toward: float | None) -> float:
         """A first length: a small part of the way, or for a point next to a branch point of the way come from there."""
@@ -125,19 +119,23 @@ class Walk:
         """Take one step. Raises `NoConvergence` when none is short enough to be shown."""
         s, least = self.length, SHORTEST * max(1e-3, self.curve.norm(self.here.y))
         why: NoConvergence | None = None
-        while s >= least:
+        unverified = 0
+        for _ in range(MOST):
+            if s < least and why is not None:
+                break
             try:
-                return self._tried(s)
+                return self._tried(s, unverified=unverified > UNVERIFIED)
             except NoConvergence as failure:
                 why = failure
-                s *= 0.5
+                unverified += isinstance(failure, Unverified)
+                s *= 0.8 if isinstance(failure, Unverified) else 0.5
         at = f"lam = {self.here.y[-1]:.9g}"
         fold = "; natural continuation ends at a fold" if self.natural else ""
         raise NoConvergence(f"the branch cannot be followed beyond {at}: {why}{fold}", () if why is None else why.history)
 
     # --- one attempt -------------------------------------------------------------------------------------------
 
-    def _tried(self, s: float) -> Step:
+    def _tried(self, s: float, *, unverified: bool) -> Step:
         here, curve = self.here, self.curve
         row = self.row(here.tangent)
         guess = self._predicted(s, row)
@@ -149,7 +147,7 @@ class Walk:
         turn = curve.dot(here.tangent, segment.tb)
         if not turn > TURN:
             raise NoConvergence(f"the tangent turned by {math.degrees(math.acos(max(-1.0, min(1.0, turn)))):.0f} degrees", ())
-        step = self._shown(segment, found)
+        step = self._shown(segment, found, unverified=unverified)
         self.before, self.here = here, step.b
         self.length = min(self.longest, s * min(GROWTH, max(0.3, (AIM / max(miss, 1e-12)) ** (1 / 3))))
         return step
@@ -169,60 +167,18 @@ class Walk:
         past = Segment(before.y, before.tangent, here.y, here.tangent, row)
         return past.at(past.length + s)
 
-    def _shown(self, segment: Segment, found: Corrected) -> Step:
+    def _shown(self, segment: Segment, found: Corrected, *, unverified: bool) -> Step:
         """The step with what was shown of it. Raises `NoConvergence` when it is not explained."""
         spans = self.prover.spans(segment)
         last = spans[-1]
-        if all(span.kind == "regular" for span in spans) and self.prover.proves:
-            return self._step(segment, found, last.index, True, ())
-        index = last.index if last.kind == "regular" else self.curve.index(segment.b)
-        b = Place(segment.b, segment.tb, index)
         if not self.prover.proves:
             self.locator.place(segment, segment.length / 2)  # and half-way
-        windows = tuple(self._windows(segment, b, spans))
+        index = last.index if last.kind == "regular" else self.curve.index(segment.b)
+        a, b = self.here, Place(segment.b, segment.tb, index)
+        if spans[0].kind == "regular" and a.index != spans[0].index:
+            a = replace(a, index=spans[0].index)
+        windows = tuple(self.inspector.windows(segment, a, b, spans, unverified=unverified))
         return self._step(segment, found, index, self.prover.proves and all(w.fold for w in windows), windows)
-
-    def _windows(self, segment: Segment, b: Place, spans: list[Span]) -> Iterator[Window]:
-        """The parts between regular spans, each explained."""
-        first = Place(segment.a, segment.ta, self.here.index if spans[0].index is None else spans[0].index)
-        for group in _groups(spans):
-            start, stop = group[0], group[-1]
-            left = first if start.start == 0 else self._gate(segment, start.start, spans)
-            right = b if stop is spans[-1] else self._gate(segment, stop.stop, spans)
-            kinds: set[str] = {span.kind for span in group}
-            if "open" in kinds and self.prover.proves and left.index == right.index:
-                kinds = self._by_parts(left, right, PARTS)
-                if kinds == {"regular"}:
-                    continue
-            fold = "open" not in kinds
-            if not fold and left.index is not None and right.index is None:
-                raise NoConvergence("the index at the end of the step cannot be verified", ())
-            crossings = () if fold else tuple(self.locator.between(left, right))
-            if not fold and not crossings and not self.prover.proves:
-                self._half(left, right)
-            yield Window(left, right, fold, crossings)
-
-    def _by_parts(self, left: Place, right: Place, depth: int) -> set[str]:
-        """What can be shown when the solution half-way is computed as well, and again in the halves."""
-        middle = self._half(left, right)
-        kinds: set[str] = set()
-        for a, b in ((left, middle), (middle, right)):
-            shown = {span.kind for span in self.prover.spans(self.locator.segment(a, b))}
-            kinds |= self._by_parts(a, b, depth - 1) if "open" in shown and depth else shown
-            if "open" in kinds:
-                break
-        return kinds
-
-    def _gate(self, segment: Segment, sigma: float, spans: list[Span]) -> Place:
-        """The solution at the end of a regular span, with the index shown there."""
-        place = self.locator.place(segment, sigma)
-        known = [s.index for s in spans if s.index is not None and sigma in (s.start, s.stop)]
-        return replace(place, index=known[0]) if known else place
-
-    def _half(self, left: Place, right: Place) -> Place:
-        """The solution half-way; raises `NoConvergence` where it is not next to the cubic."""
-        piece = self.locator.segment(left, right)
-        return self.locator.place(piece, piece.length / 2)
 
     def _step(self, segment: Segment, found: Corrected, index: int | None, proved: bool, windows: tuple[Window, ...]) -> Step:
         inertia = None
@@ -238,17 +194,3 @@ class Walk:
 def _scale(p: Point, step: float | None, toward: float | None) -> float:
     """1 where a length is given in it; else a tenth of the loads in question, so that loads and unknowns weigh alike."""
     return 1.0 if step is not None else max(abs(p.lam), abs(toward or 0.0)) / 10 or 1.0
-
-
-def _groups(spans: list[Span]) -> Iterator[list[Span]]:
-    """Runs of spans that are not regular; regular ones of different index next to each other meet in an empty one."""
-    group: list[Span] = []
-    for span in spans:
-        if span.kind == "regular":
-            if group:
-                yield group
-            group = []
-        else:
-            group.append(span)
-    if group:
-        yield group

@@ -22,6 +22,7 @@ from rodlab.numerics.bordered import OneBorder
 from rodlab.numerics.factor import factor, inertia_of
 from rodlab.numerics.inertia import Inertia, Symmetric
 
+PLATEAU = 1e-11  # relative size at which slow corrections are rounding
 ROUGH = 1e-7  # relative size below which corrections that stop shrinking are rounding
 CHORD = 1e-5  # relative size below which one more correction with the same factor finishes
 
@@ -86,9 +87,13 @@ class Curve:
     def symmetric(self, y: Array) -> bool:
         """True when the Jacobian is symmetric, as the derivative of an energy's gradient is."""
         if self._symmetric is None:
-            J = self.jacobian(y)
-            self._symmetric = isinstance(J, Symmetric) or factor(J).inertia() is not None
+            aside = y + 0.01 * np.cos(np.arange(y.size))  # where no symmetry of the state makes it so
+            self._symmetric = all(_is_symmetric(self.jacobian(at)) for at in (y, aside))
         return self._symmetric
+
+    def has_index(self, y: Array) -> bool:
+        """True where eigenvalues can be counted: a second variation is known, or the Jacobian is symmetric."""
+        return hasattr(self.equations, "second_variation") or self.symmetric(y)
 
     # --- geometry ----------------------------------------------------------------------------------------------
 
@@ -114,9 +119,7 @@ class Curve:
     def tangent(self, y: Array, toward: Array) -> Array:
         """The unit tangent at a solution y, on the side of the direction `toward`."""
         row = self.row(toward / self.norm(toward))
-        return self._tangent(OneBorder(factor(self.jacobian(y)), self.d_lam(y), row[:-1], float(row[-1])), y, row)
-
-    def _tangent(self, solver: OneBorder, y: Array, row: Array) -> Array:
+        solver = self._solver(y, row, [])
         side = np.zeros_like(y)
         side[-1] = 1.0
         with np.errstate(all="ignore"):
@@ -138,9 +141,7 @@ class Curve:
         while len(history) < limit:
             F = self._finite_residual(y, history)
             if solver is None:
-                J, f = self.jacobian(y), self.d_lam(y)
-                with np.errstate(all="ignore"):
-                    solver = OneBorder(factor(J), f, row[:-1], float(row[-1]))
+                solver = self._solver(y, row, history)
             with np.errstate(all="ignore"):
                 step = solver.solve(np.append(-F, 0.0))
             size = self.norm(step)
@@ -163,22 +164,39 @@ class Curve:
             last = size
             if size > CHORD * scale:
                 solver = None  # else the last factor serves once more
-        raise NoConvergence(f"after {limit} corrections the last was {history[-1].step:.2g}", tuple(history))
+        if last <= PLATEAU * scale:
+            return self._corrected(y, step, 2 * last, history, contraction)
+        raise NoConvergence(f"after {limit} corrections the last was {last:.2g}", tuple(history))
 
     def _finite_residual(self, y: Array, history: list[NewtonStep]) -> Array:
-        with np.errstate(all="ignore"):
-            F = self.residual(y) if np.isfinite(y).all() else np.full(y.size - 1, np.nan)
+        try:
+            with np.errstate(all="ignore"):
+                F = self.residual(y) if np.isfinite(y).all() else np.full(y.size - 1, np.nan)
+        except (ValueError, ArithmeticError) as error:
+            raise NoConvergence(f"the residual cannot be computed: {error}", tuple(history)) from error
         if not np.isfinite(F).all():
             raise NoConvergence("the residual is not finite at the predicted point", tuple(history))
         return F
 
+    def _solver(self, y: Array, row: Array, history: list[NewtonStep]) -> OneBorder:
+        """The bordered matrix at y, factored."""
+        try:
+            with np.errstate(all="ignore"):
+                return OneBorder(factor(self.jacobian(y)), self.d_lam(y), row[:-1], float(row[-1]))
+        except (ValueError, ArithmeticError) as error:
+            raise NoConvergence(f"the derivatives cannot be used: {error}", tuple(history)) from error
+
     def _size(self, F: Array) -> float:
-        return math.sqrt(max(float(self.equations.inner(F, F)), 0.0))
+        return self.norm(np.append(F, 0.0))
 
     def _corrected(self, y: Array, step: Array, left: float, history: list[NewtonStep], contraction: float) -> Corrected:
         size = self.norm(step)
         remaining = left * float(np.abs(step[:-1]).max(initial=0.0)) / size if size else 0.0
         return Corrected(y, tuple(history), remaining, contraction)
+
+
+def _is_symmetric(J: Any) -> bool:
+    return isinstance(J, Symmetric) or factor(J).inertia() is not None
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,18 +12,18 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
-from rodlab.analysis.continuation import Step, Window
+from rodlab.analysis.continuation import Step
 from rodlab.analysis.crossings import Crossing, Locator, Place
-from rodlab.analysis.curve import Curve, Segment
+from rodlab.analysis.curve import Segment
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
+from rodlab.analysis.shown import Window
+from rodlab.analysis.touching import outside, root
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.nullspace import near_null
 
-INSIDE = 1e-5  # part of F_lam along the null vectors below which it is in the range of J
-SAMPLES = 8  # of the cubic between two points, for several zeros in one step
+SAMPLES = 16  # of the cubic between two points, for several zeros in one step
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +88,11 @@ class Zero:
         segment, equations = step.segment, locator.curve.equations
 
         def value(y: Array) -> float:
-            return float(self.function(Point(equations, float(y[-1]), y[:-1])))
+            given = self.function(Point(equations, float(y[-1]), y[:-1]))
+            try:
+                return float(given)
+            except (TypeError, ValueError):
+                raise ValueError(f"the event {self.kind} must return a number; it returned {given!r:.60}") from None
 
         grid = np.linspace(0.0, segment.length, SAMPLES + 1)
         values = [value(segment.a), *(value(segment.at(s)) for s in grid[1:-1]), value(segment.b)]
@@ -109,7 +113,7 @@ class Zero:
         if exact(low) * exact(high) > 0:
             y = segment.at(low)
             return _event(self.kind, y, float(abs(segment.b[-1] - segment.a[-1])), step, segment, reason="it only touches zero")
-        sigma = _root(exact, low, high)
+        sigma = root(exact, low, high)
         y = _solution(segment, locator, sigma)
         error = 4 * EPS * (abs(float(y[-1])) + abs(high)) * 4 + abs(value(y)) * _load_per_value(segment, value, sigma)
         return _event(self.kind, y, error, step, segment)
@@ -132,16 +136,11 @@ def _singular(window: Window, locator: Locator, step: Step) -> Iterator[Event]:
     if window.fold:
         yield from _folds(window.a, window.b, locator, step)
         return
-    crossings = list(window.crossings)
-    if not crossings:
-        touch = _touch(window, locator)
-        if touch is None:
-            yield from _folds(window.a, window.b, locator, step)
-            return
-        crossings = [touch]
-    for crossing in crossings:
+    if not window.crossings:
+        yield from _folds(window.a, window.b, locator, step)
+    for crossing in window.crossings:
         p = crossing.multiplicity
-        turning = _outside(curve, crossing)
+        turning = outside(curve, crossing)
         reason = "" if crossing.converged else f"{p} eigenvalues cross zero near here; they could not be told apart"
         if turning and p == 1 and crossing.converged:
             yield _exact_fold(crossing, locator, step)
@@ -149,14 +148,6 @@ def _singular(window: Window, locator: Locator, step: Step) -> Iterator[Event]:
             yield _event("fold", crossing.y, crossing.error, step, crossing.fence, crossing, 1, reason)
         if p > turning:
             yield _event("branch point", crossing.y, crossing.error, step, crossing.fence, crossing, p - turning, reason)
-
-
-def _outside(curve: Curve, crossing: Crossing) -> int:
-    """1 where F_lam has a part along the left null vectors: the load turns; 0 where it is in the range of J."""
-    f = [curve.d_lam(y) for y in (crossing.y, crossing.fence.a, crossing.fence.b)]
-    size = max(float(np.sqrt(g @ g)) for g in f)
-    part = crossing.null.left.T @ f[0]
-    return int(float(np.sqrt(part @ part)) > INSIDE * size) if size > 0 else 0
 
 
 def _folds(a: Place, b: Place, locator: Locator, step: Step) -> Iterator[Event]:
@@ -177,7 +168,7 @@ def _fold_between(segment: Segment, locator: Locator, step: Step, low: float, hi
 
     if rate(low) * rate(high) > 0:
         low, high = 0.0, segment.length
-    y = _solution(segment, locator, _root(rate, low, high))
+    y = _solution(segment, locator, root(rate, low, high))
     return _fold_at(y, segment, locator, step)
 
 
@@ -202,61 +193,11 @@ def _fold_at(y: Array, segment: Segment, locator: Locator, step: Step) -> Event:
     return _event("fold", y, error, step, segment, None, 1, null=near.right)
 
 
-def _touch(window: Window, locator: Locator) -> Crossing | None:
-    """A zero of eigenvalues that keep their sign: a pitchfork seen from its side branch, where the load turns as well."""
-    segment = locator.segment(window.a, window.b)
-    if not window.turns:
-        return None
-    sigma = _turning(segment)
-    width = 1e-2 * segment.length
-    try:
-        for _ in range(3):
-            left, right = (locator.place(segment, min(max(sigma + side * width, 0.0), segment.length)) for side in (-1, 1))
-            fence = locator.segment(left, right)
-            if not float(left.tangent[-1]) * float(right.tangent[-1]) < 0:
-                return None
-            sigma = _turning(fence)
-            segment, width = fence, 0.05 * fence.length
-    except NoConvergence:
-        return None
-    return _touching(fence, sigma, locator)
-
-
-def _touching(fence: Segment, sigma: float, locator: Locator) -> Crossing | None:
-    curve = locator.curve
-    y = fence.at(sigma)
-    symmetric = curve.symmetric(y)
-    most = min(3, y.size - 1)
-    ends = near_null(curve.jacobian(fence.a), 1, symmetric=symmetric).values
-    here = near_null(curve.jacobian(y), most, symmetric=symmetric)
-    p = int((np.abs(here.values) <= 1e-3 * abs(float(ends[0]))).sum())
-    if p == 0:
-        return None
-    crossing = locator.crossing(fence, sigma, p, 1e-15, p)
-    bend = abs(float(fence.derivative(fence.length)[-1] - fence.derivative(0.0)[-1])) / fence.length
-    off = float(np.sqrt(abs(here.values[p - 1] / ends[0]))) * fence.length  # the load is quadratic in it
-    touched = crossing._replace(touches=True, error=crossing.error + bend * off**2)
-    return None if _outside(curve, touched) else touched
-
-
 # --- small parts -------------------------------------------------------------------------------------------------
 
 
 def _solution(segment: Segment, locator: Locator, sigma: float) -> Array:
     return locator.curve.correct(segment.at(sigma), segment.row).y
-
-
-def _root(f: Callable[[float], float], low: float, high: float) -> float:
-    """A zero between low and high, where f has different signs; the nearer end where it has not, by rounding."""
-    at = f(low), f(high)
-    if at[0] * at[1] >= 0:
-        return low if abs(at[0]) < abs(at[1]) else high
-    return float(brentq(f, low, high, xtol=4 * EPS * max(abs(low), abs(high)), rtol=8 * EPS))
-
-
-def _turning(segment: Segment) -> float:
-    """Where the load of the cubic is stationary."""
-    return segment.length * _root(lambda x: float(segment.rates(np.asarray(x))), 0.0, 1.0)
 
 
 def _load_per_value(segment: Segment, value: Callable[[Array], float], sigma: float) -> float:

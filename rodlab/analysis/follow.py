@@ -16,8 +16,12 @@ from rodlab.analysis.curve import Curve, Segment
 from rodlab.analysis.events import Event, Singular, Zero, branch_point, finders, fold
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
+from rodlab.analysis.touching import root
 from rodlab.numerics.arrays import Array, number, whole
 from rodlab.numerics.inertia import Inertia
+
+LOOKS = 8  # places of a step at which the limits are looked at
+FAR = 1e8  # loads beyond this many times those in question: the branch runs away
 
 Within = Mapping[str, tuple[float, float]] | Callable[[Point], Any] | None
 
@@ -108,12 +112,14 @@ def _between(a: Point, b: Point, lam: float) -> Point:
 
 
 def passages(segment: Segment, lam: float) -> list[float]:
-    """Parts of its length at which the cubic passes a load; its first end is not counted."""
-    grid = np.linspace(0.0, 1.0, 65)
-    off = segment.loads(grid) - lam
-    off[0], off[-1] = segment.a[-1] - lam, segment.b[-1] - lam
-    passed = np.flatnonzero(((off[:-1] * off[1:] < 0) | (off[1:] == 0)) & (off[:-1] != 0))
-    return [float(grid[i] + (grid[i + 1] - grid[i]) * off[i] / (off[i] - off[i + 1])) for i in passed]
+    """Parts of its length, above 0 and up to 1, at which the cubic passes a load."""
+    a, b = float(segment.a[-1]), float(segment.b[-1])
+    da, db = (segment.length * float(slope[-1]) for slope in segment.slopes)
+    cubic = np.array([da + db - 2 * (b - a), 3 * (b - a) - 2 * da - db, da, a - lam])
+    roots = np.roots(cubic[:-1] if a == lam else cubic)
+    real = sorted(float(x.real) for x in roots if abs(x.imag) <= 1e-9 * (1 + abs(x)))
+    found = [x for x in real if 1e-12 < x < 1]
+    return [*found, 1.0] if b == lam else found
 
 
 def at_load(curve: Curve, segment: Segment, part: float, lam: float, accepted: str, known: Inertia | None = None) -> Point:
@@ -171,11 +177,17 @@ def follow(
         if watch is not None:
             watch(points[-1])
         if stop is not None:
-            return _ended(points, found, stop[2])
+            return _ended(points, found, stop[2], converged=not stop[2].startswith("it runs away"))
 
 
 def _sorted(step: Step, walk: Walk, wanted: list[Singular | Zero], limit: float, before: int) -> Iterator[Event]:
-    events = [event for finder in wanted for event in finder.find(step, walk.locator)]
+    events: list[Event] = []
+    for finder in wanted:
+        try:
+            events += finder.find(step, walk.locator)
+        except NoConvergence as why:
+            reason = f"in this step, but it could not be located: {why}"
+            events.append(Event(finder.kind, step.point.lam, np.inf, step.point, 1, reason, converged=False, where=1.0))
     for event in sorted(events, key=lambda e: e.where):
         if event.where <= limit:
             yield replace(event, where=before + event.where)
@@ -224,20 +236,33 @@ class _Stops:
     def of(self, step: Step) -> tuple[float, Point, str] | None:
         """(how far along the step, the last point, the reason), or None."""
         self.steps += 1
-        found = [*self._at_loads(step), *self._closing(step), *self._leaving(step)]
+        found = [*self._at_loads(step), *self._closing(step), *self._leaving(step), *self._away(step)]
         return min(found, key=lambda entry: entry[0]) if found else None
 
     def _at_loads(self, step: Step) -> Iterator[tuple[float, Point, str]]:
+        segment, curve = step.segment, self.walk.curve
         known = step.point.known_inertia if not step.windows else None
         for load, reason in self.loads.items():
-            for part in passages(step.segment, load)[:2]:
+            for part in passages(segment, load):
                 try:
-                    yield part, at_load(self.walk.curve, step.segment, part, load, step.point.accepted, known), reason
-                except NoConvergence:
-                    if (step.segment.a[-1] - load) * (step.segment.b[-1] - load) <= 0:
-                        raise
-                    continue  # only the cubic passes this load, the branch itself turns before
-                break
+                    yield part, at_load(curve, segment, part, load, step.point.accepted, known), reason
+                    break
+                except NoConvergence:  # a fold in the same place; or only the cubic passes this load
+                    if (segment.a[-1] - load) * (segment.b[-1] - load) < 0:
+                        part, y = self._by_arclength(segment, load)
+                        yield part, self._point(segment, part, step, y), reason
+                        break
+
+    def _by_arclength(self, segment: Segment, load: float) -> tuple[float, Array]:
+        """Where a load is passed, by solutions across the branch: good next to a fold too."""
+
+        def off(x: float) -> float:
+            return float(self.walk.curve.correct(segment.at(x * segment.length), segment.row).y[-1]) - load
+
+        part = root(off, 0.0, 1.0)
+        y = self.walk.curve.correct(segment.at(part * segment.length), segment.row).y
+        y[-1] = load
+        return part, y
 
     def _closing(self, step: Step) -> Iterator[tuple[float, Point, str]]:
         segment, curve, start = step.segment, self.walk.curve, self.start
@@ -255,18 +280,33 @@ class _Stops:
             yield sigma / segment.length, point, "closed: back at its first point"
 
     def _leaving(self, step: Step) -> Iterator[tuple[float, Point, str]]:
-        if self.within is None or self.inside(step.point):
+        if self.within is None:
             return
-        segment, low, high = step.segment, 0.0, 1.0
+        segment = step.segment
+        parts = [float(x) for x in np.linspace(0.0, 1.0, LOOKS + 1)]
+        out = next((x for x in parts[1:-1] if not self.inside(self._guessed(segment, x))), None)
+        if out is None and self.inside(step.point):
+            return
+        high = 1.0 if out is None else out
+        low = high - 1 / LOOKS
         for _ in range(40):
             middle = (low + high) / 2
             low, high = (middle, high) if self.inside(self._point(segment, middle, step)) else (low, middle)
         yield low, self._point(segment, low, step), "left the limits given"
 
-    def _point(self, segment: Segment, part: float, step: Step) -> Point:
+    def _away(self, step: Step) -> Iterator[tuple[float, Point, str]]:
+        if abs(step.point.lam) > FAR * max(abs(self.to), abs(float(self.start.y[-1])), self.walk.curve.scale):
+            yield 1.0, step.point, f"it runs away from {self.to:g}: lam = {step.point.lam:.3g}"
+
+    def _guessed(self, segment: Segment, part: float) -> Point:
+        y = segment.at(part * segment.length)
+        return Point(self.equations, float(y[-1]), y[:-1])
+
+    def _point(self, segment: Segment, part: float, step: Step, y: Array | None = None) -> Point:
         found = self.walk.curve.correct(segment.at(part * segment.length), segment.row)
-        t = self.walk.curve.tangent(found.y, segment.derivative(part * segment.length))
+        y = found.y if y is None else y
+        t = self.walk.curve.tangent(y, segment.derivative(part * segment.length))
         return Point(
-            self.equations, float(found.y[-1]), found.y[:-1].copy(), found.history, found.remaining,
+            self.equations, float(y[-1]), y[:-1].copy(), found.history, found.remaining,
             tangent=t, accepted=step.point.accepted,
         )  # fmt: skip

@@ -77,8 +77,10 @@ class Prover:
         """The segment in spans, each regular, a fold, or open: not shown with parts of the size `finest`."""
         if self.proves and not np.isfinite(np.max(self.lipschitz(segment.a[:-1], float(segment.a[-1]))(1.0, 1.0)[0])):
             self.lipschitz = None
-        found: list[Span] = []
         length = segment.length
+        if not self.curve.has_index(segment.a):
+            return [Span(0.0, length, "open", None)]
+        found: list[Span] = []
         waiting = [(0.0, 1.0)]
         gate = float(np.abs(segment.b - segment.a)[:-1].max(initial=0.0)) / 128 + 1e-9
         ends: dict[float, tuple[Array, float]] = {0.0: (segment.a, 0.0), 1.0: (segment.b, 0.0)}

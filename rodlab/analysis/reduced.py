@@ -44,8 +44,7 @@ class Reduced:
         return self.curve.row(np.append(v, 0.0))[:-1]
 
     def _scale(self, J: Any) -> float:
-        image = J @ np.ones(self.y.size - 1)
-        return float(np.sqrt(image @ image)) or 1.0
+        return float(np.max(abs(J) @ np.ones(self.y.size - 1))) or 1.0
 
     def at(self, xi: Array, mu: float) -> tuple[Array, Array]:
         """(y, b): the point of these coordinates and what is left of the equations there.
@@ -128,6 +127,14 @@ class Polynomial:
                 xm = np.nan_to_num(xm - step * np.minimum(1.0, 0.5 / np.maximum(size, 1e-300)))
         good = (np.abs(self(xm)).max(axis=1) < 1e-9) & (np.abs(np.sum(xm[:, :-1] ** 2, axis=1) - 1) < 1e-9)
         return _distinct(xm[good & (np.abs(xm[:, -1]) < 30)])
+
+    def isolated(self, roots: Array) -> bool:
+        """False where roots lie on curves of roots: a continuous symmetry, or terms of higher order decide."""
+        for J, xm in zip(self.jacobian(roots), roots, strict=True):
+            s = np.linalg.svd(np.vstack([J, np.append(xm[:-1], 0.0)]), compute_uv=False)
+            if s[-1] < 1e-5 * s[0]:
+                return False
+        return True
 
     def _starts(self, count: int) -> Array:
         rng = np.random.default_rng(3)

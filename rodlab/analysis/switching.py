@@ -22,6 +22,7 @@ from rodlab.numerics.nullspace import NearNull, near_null
 FIRST = 0.05  # distance of a start from its branch point, in the length of the equations
 LEAST = 1e-6
 FIT = 1e-3  # misfit of the cubic polynomial that still tells the directions
+SLIM = 0.05  # part of the null vectors on a half-branch along the load
 MOST = 3  # null vectors
 
 
@@ -50,13 +51,16 @@ def switch(event: Event) -> list[Point]:
     if null.right.shape[1] > MOST:
         raise ValueError(f"event must have at most {MOST} null vectors; it has {null.right.shape[1]}")
     reduced = Reduced(curve, y, null)
-    rho, failure = FIRST, None
+    rho, farther, failure = FIRST, list[Point](), "none leaves"
     while rho >= LEAST:
         try:
-            return _Leaving(curve, reduced, event, rho).starts()
+            starts = _Leaving(curve, reduced, event, rho).starts()
         except NoConvergence as why:
-            failure = why
-            rho /= 4
+            starts, failure = [], str(why)
+        if starts and len(starts) == len(farther):  # the same nearer by: no other branch passes between
+            return farther
+        farther = starts
+        rho /= 4
     raise NoConvergence(f"no half-branch could be told at lam = {event.lam:.9g}: {failure}", ())
 
 
@@ -115,9 +119,10 @@ class _Leaving:
                 break
         else:
             raise NoConvergence(f"{len(roots)} directions were found, and their signs say that some are missing", ())
+        if not polynomial.isolated(roots):
+            raise NoConvergence("the half-branches form a continuum (a symmetry?), or terms beyond the third order decide", ())
         yield from roots
-        if self._parent_in_null():
-            yield from self._along_the_load()
+        yield from self._along_the_load()
 
     def _complete(self, roots: Array) -> bool:
         """Poincare and Hopf: signs of the tangential field sum to 0 on the circle, 2 on S^0 and S^2, if all cross one way."""
@@ -130,22 +135,14 @@ class _Leaving:
             signs += int(np.sign(np.linalg.det(np.vstack([J, np.append(xm[:-1], 0.0)]))))
         return abs(signs) == (2 if self.reduced.p % 2 else 0)
 
-    def _parent_in_null(self) -> bool:
-        """True when the followed branch leaves along the null vectors, with the load stationary."""
-        xi, _ = self._direction(self.parent)
-        return abs(float(self.parent[-1])) / self.polynomial.mu0 * self.rho < 0.1 * float(np.linalg.norm(xi))
-
-    def _direction(self, t: Array) -> tuple[Array, float]:
-        return np.asarray(self.reduced.rows.T @ t[:-1]), float(t[-1])
-
     def _along_the_load(self) -> Iterator[Array]:
-        """The two halves on which the null vectors hardly take part, for a point met on one of its side branches."""
+        """The two halves on which the null vectors hardly take part: not on the sphere, and often the followed branch."""
         for m in (1.0, -1.0):
             xm = np.append(np.zeros(self.reduced.p), m)
             for _ in range(20):
                 J = self.polynomial.jacobian(xm[None])[0][:, :-1]
                 xm[:-1] -= np.linalg.lstsq(J, self.polynomial(xm[None])[0], rcond=1e-12)[0]
-            if np.abs(self.polynomial(xm[None])).max() < 1e-8 and np.abs(xm[:-1]).max() < 0.5:
+            if np.abs(self.polynomial(xm[None])).max() < 1e-8 and np.abs(xm[:-1]).max() < SLIM:
                 yield xm
 
     # --- from a root of the polynomial to a point ------------------------------------------------------------------
@@ -154,8 +151,10 @@ class _Leaving:
         """The solution of the full equations at a root, None where that is on the followed branch."""
         reduced, curve = self.reduced, self.curve
         guess, _ = reduced.at(self.rho * root[:-1], self.polynomial.mu0 * float(root[-1]))
+        if not self._left(guess):
+            return None
         away = guess - reduced.y
-        if np.abs(root[:-1]).max() > 0.1:  # in the plane across the null direction: regular on the new branch
+        if np.abs(root[:-1]).max() > SLIM:  # in the plane across the null direction: regular on the new branch
             row = curve.row(np.append(away[:-1], 0.0) / curve.norm(np.append(away[:-1], 0.0)))
         else:
             row = np.append(np.zeros(away.size - 1), np.sign(away[-1]))
@@ -173,14 +172,11 @@ class _Leaving:
         curve, parent = self.near, self.parent / self.near.norm(self.parent)
         row = curve.row(parent)
         guess = self.reduced.y + float(row @ (y - self.reduced.y)) * parent
-        away, distance = curve.norm(y - guess), curve.norm(y - self.reduced.y)
         try:
-            beside = curve.correct(guess, row).y
-        except NoConvergence:  # the plane is too near the branch point
-            beside = guess
-        if curve.norm(beside - guess) > away / 2:  # not the followed branch, whose tangent is near by
-            beside = guess
-        return curve.norm(y - beside) > 0.1 * distance
+            guess = curve.correct(guess, row).y
+        except NoConvergence:  # the plane is too near the branch point: the tangent must do
+            pass
+        return curve.norm(y - guess) > 0.1 * curve.norm(y - self.reduced.y)
 
     def _apart(self, p: Point, q: Point) -> bool:
         return self.near.norm(np.append(p.u - q.u, p.lam - q.lam)) > 1e-3 * self.rho

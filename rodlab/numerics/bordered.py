@@ -15,6 +15,7 @@ import numpy as np
 
 from rodlab.numerics.arrays import EPS, Array, vector
 from rodlab.numerics.factor import Solves
+from rodlab.numerics.factor import factor as factored
 
 
 class OneBorder:
@@ -68,10 +69,23 @@ class Bordered:
         if B.ndim != 2 or B.shape != C.shape or D.shape != (B.shape[1], B.shape[1]) or B.shape[1] == 0:
             raise ValueError(f"B and C must have shape (n, m) and D (m, m), m >= 1; they have {B.shape}, {C.shape}, {D.shape}")
         self.matrix, self.B, self.C, self.D = matrix, B, C, D
-        solver: Solves = factor
+        self._solver = self._whole() if isinstance(matrix, np.ndarray) or hasattr(matrix, "tocsc") else self._nested(factor)
+
+    def _whole(self) -> Solves:
+        """An unstructured matrix is factored with its border, pivots chosen in both."""
+        if isinstance(self.matrix, np.ndarray):
+            return factored(np.block([[self.matrix, self.B], [self.C.T, self.D]]))
+        from scipy.sparse import block_array
+
+        blocks: Any = [[self.matrix, self.B], [self.C.T, self.D]]
+        return factored(block_array(blocks, format="csc"))
+
+    def _nested(self, factor: Solves) -> Solves:
+        """A structured one keeps its own factor, each column of the border around the last."""
+        B, C, D, solver = self.B, self.C, self.D, factor
         for j in range(D.shape[0]):
             solver = OneBorder(solver, np.append(B[:, j], D[:j, j]), np.append(C[:, j], D[j, :j]), float(D[j, j]))
-        self._solver = solver
+        return solver
 
     def solve(self, f: Array, g: Array) -> tuple[Array, Array]:
         """x (n,) and y (m,), refined until the correction stops shrinking.
@@ -84,7 +98,8 @@ class Bordered:
         for _ in range(4):
             x, y = z[:n], z[n:]
             residual = np.append(f - self.matrix @ x - self.B @ y, g - self.C.T @ x - self.D @ y)
-            step = self._solver.solve(residual)
+            with np.errstate(all="ignore"):
+                step = self._solver.solve(residual)
             if not np.isfinite(step).all():
                 raise ArithmeticError(f"the bordered matrix of order {n + g.size} is singular to working precision")
             last, size = size, float(np.abs(step).max(initial=0.0))

@@ -1,0 +1,160 @@
+"""What is shown of a step: its spans, and an explanation for every part where the Jacobian may be singular.
+
+regular, all of it           nothing can happen there: no window
+fold, all of it              a window in which the load may turn, and nothing else
+open, the index changes      eigenvalues that cross zero, each found; what lies beside them shown like a step of its own
+open, the index stays        halved, the solutions half-way computed; an eigenvalue that only touches zero is found
+open, nothing explains it    refused: the step is too long
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from rodlab.analysis.crossings import Crossing, Locator, Place
+from rodlab.analysis.curve import Segment
+from rodlab.analysis.newton import NoConvergence
+from rodlab.analysis.proof import Prover, Span
+from rodlab.analysis.touching import touching
+
+PARTS = 3  # times a part that stays open is halved, the solution half-way computed
+HALFWAY = 2e-3  # how far half-way from the cubic, as a part of its length, where nothing better can be shown
+TINY = 1e-5  # parts shorter than this, relative to the point, may stay open: rounding hides what is there
+
+
+class Unverified(NoConvergence):
+    """The index at the end of a step is not certain; a step of another length may end where it is."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Window:
+    """A part of a step where the Jacobian may be singular: a fold at most, or the crossings that were found in it."""
+
+    a: Place
+    b: Place
+    fold: bool
+    crossings: tuple[Crossing, ...] = ()
+
+    @property
+    def turns(self) -> bool:
+        """True when the load turns back between its ends."""
+        return float(self.a.tangent[-1]) * float(self.b.tangent[-1]) < 0
+
+
+class Inspector:
+    """Explains the parts of a step that are not regular, or refuses it."""
+
+    def __init__(self, prover: Prover, locator: Locator) -> None:
+        self.prover, self.locator, self.curve = prover, locator, locator.curve
+
+    def windows(self, segment: Segment, a: Place, b: Place, spans: list[Span], *, unverified: bool) -> Iterator[Window]:
+        """The windows of a step, in order. unverified: accept an index that cannot be verified at its end.
+
+        Raises `NoConvergence` where a part cannot be explained.
+        """
+        for group in _groups(spans):
+            left = a if group[0] is spans[0] else self._gate(segment, group[0].start, spans)
+            right = b if group[-1] is spans[-1] else self._gate(segment, group[-1].stop, spans)
+            if all(span.kind == "fold" for span in group):
+                yield Window(left, right, fold=True)
+            elif left.index is None or right.index is None:
+                if left.index is not None and not unverified:
+                    raise Unverified("the index at the end of the step cannot be verified", ())
+                self._halfway(left, right)
+                yield Window(left, right, fold=False)
+            elif not self.curve.has_index(left.y):
+                crossings = tuple(self.locator.between(left, right))
+                if not crossings:
+                    self._halfway(left, right)
+                yield Window(left, right, fold=False, crossings=crossings)
+            else:
+                yield from self._explained(left, right)
+
+    def _explained(self, left: Place, right: Place) -> Iterator[Window]:
+        crossings = self.locator.between(left, right)
+        if not crossings:
+            yield from self._part(left, right)
+            return
+        last = left
+        for crossing in crossings:
+            ends = (Place(y, t, None) for y, t in ((crossing.fence.a, crossing.fence.ta), (crossing.fence.b, crossing.fence.tb)))
+            before, after = (replace(place, index=self.curve.index(place.y)) for place in ends)
+            yield from self._beside(last, before)
+            yield Window(before, after, fold=False, crossings=(crossing,))
+            last = after
+        yield from self._beside(last, right)
+
+    def _beside(self, left: Place, right: Place) -> Iterator[Window]:
+        """A part between crossings: as near to one as the fence is, it may stay open."""
+        if (
+            self.curve.norm(right.y - left.y) > TINY * self.curve.norm(right.y)
+            and float(self.curve.row(left.tangent) @ (right.y - left.y)) > 0
+        ):
+            yield from self._part(left, right, beside=True)
+
+    def _part(self, left: Place, right: Place, *, beside: bool = False) -> Iterator[Window]:
+        """A part whose index stays."""
+        shown = self._by_parts(left, right, PARTS)
+        if shown == {"regular"}:
+            return
+        if "open" not in shown:
+            yield Window(left, right, fold=True)
+            return
+        touch = None if beside else touching(self.locator, left, right)
+        if touch is not None:
+            yield Window(left, right, fold=False, crossings=(touch,))
+            return
+        if not beside and self.curve.norm(right.y - left.y) > TINY * max(1.0, self.curve.norm(right.y)):
+            raise NoConvergence("part of the step could not be shown to stay on the branch", ())
+        self._halfway(left, right)
+        yield Window(left, right, fold=False)
+
+    def _by_parts(self, left: Place, right: Place, depth: int) -> set[str]:
+        """What can be shown when the solution half-way is computed as well, and again in the halves."""
+        middle = self._half(left, right)
+        if middle.index != left.index:
+            raise NoConvergence(f"the index is {middle.index} half-way between two places where it is {left.index}", ())
+        kinds: set[str] = set()
+        for a, b in ((left, middle), (middle, right)):
+            spans = self.prover.spans(self.locator.segment(a, b))
+            if any(span.index not in (None, left.index) for span in spans):
+                raise NoConvergence("the index changes and changes back within a step", ())
+            shown = {str(span.kind) for span in spans}
+            kinds |= self._by_parts(a, b, depth - 1) if "open" in shown and depth else shown
+            if "open" in kinds:
+                break
+        return kinds
+
+    def _gate(self, segment: Segment, sigma: float, spans: list[Span]) -> Place:
+        """The solution at the end of a regular span, with the index shown there."""
+        place = self.locator.place(segment, sigma)
+        known = [s.index for s in spans if s.index is not None and sigma in (s.start, s.stop)]
+        return replace(place, index=known[0]) if known else place
+
+    def _half(self, left: Place, right: Place) -> Place:
+        """The solution half-way; raises `NoConvergence` where it is not next to the cubic."""
+        piece = self.locator.segment(left, right)
+        return self.locator.place(piece, piece.length / 2)
+
+    def _halfway(self, left: Place, right: Place) -> None:
+        """Raise unless the solution half-way is where the cubic says, with the same index."""
+        piece = self.locator.segment(left, right)
+        middle = self.locator.place(piece, piece.length / 2)
+        off = self.curve.norm(middle.y - piece.at(piece.length / 2))
+        if off > HALFWAY * abs(piece.length):
+            raise NoConvergence(f"half-way the branch is {off / abs(piece.length):.1g} of the length beside its cubic", ())
+        if left.index is not None and middle.index is not None and middle.index != left.index:
+            raise NoConvergence("the index half-way is another", ())
+
+
+def _groups(spans: list[Span]) -> Iterator[list[Span]]:
+    """Runs of spans that are not regular."""
+    group: list[Span] = []
+    for span in spans:
+        if span.kind == "regular":
+            if group:
+                yield group
+            group = []
+        else:
+            group.append(span)
+    if group:
+        yield group
