@@ -24,7 +24,7 @@ from rodlab.analysis.derivatives import check_derivatives
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.analysis.proof import Prover
-from rodlab.analysis.shown import Inspector, Unverified, Window
+from rodlab.analysis.shown import Inspector, Open, Patience, Unverified, Window
 from rodlab.numerics.arrays import Array, number
 from rodlab.numerics.inertia import Inertia
 from rodlab.numerics.nullspace import near_null
@@ -34,6 +34,7 @@ MISS = 0.1  # greatest error of a prediction, as a part of the step
 AIM = 0.01  # the error that the next step aims at
 GROWTH = 3.0  # longest step after a step
 MOST = 200  # lengths tried for one step
+REFUSED = 8  # refusals for open parts, step after step, before what stays open is checked instead
 UNVERIFIED = 3  # ends without a verified index before one is accepted
 SHORTEST = 1e-11  # of the size of the point: no shorter step is tried
 
@@ -79,7 +80,7 @@ class Walk:
     ) -> None:
         if not isinstance(p, Point):
             raise ValueError(f"p must be a Point, as equilibrium returns it; it is {p!r:.60}")
-        self.longest = math.inf if step is None else number("step", step, above=0.0)
+        self.longest = math.inf if step is None else min(number("step", step, above=0.0), 1e100)
         self.curve = Curve(p.equations, _scale(p, step, toward) if scale is None else number("scale", scale, above=0.0))
         self.natural, self.prover, self.locator = natural, Prover(self.curve), Locator(self.curve)
         self.inspector = Inspector(self.prover, self.locator)
@@ -87,6 +88,7 @@ class Walk:
         y = np.append(p.u, p.lam)
         self.here = Place(y, self._start(p, y, toward), self.curve.index(y))
         self.before: Place | None = None
+        self.refused = 0  # refusals for open parts since a step was shown at its first length
         self.length = min(self.longest, self._first(p, toward))
 
     def _start(self, p: Point, y: Array, toward: float | None) -> Array:
@@ -119,23 +121,28 @@ class Walk:
         """Take one step. Raises `NoConvergence` when none is short enough to be shown."""
         s, least = self.length, SHORTEST * max(1e-3, self.curve.norm(self.here.y))
         why: NoConvergence | None = None
-        unverified = 0
+        opened = unverified = 0  # refusals of this step
         for _ in range(MOST):
             if s < least and why is not None:
                 break
             try:
-                return self._tried(s, unverified=unverified > UNVERIFIED)
+                step = self._tried(s, Patience(self.refused + opened < REFUSED, unverified < UNVERIFIED))
             except NoConvergence as failure:
                 why = failure
+                opened += isinstance(failure, Open)
                 unverified += isinstance(failure, Unverified)
                 s *= 0.8 if isinstance(failure, Unverified) else 0.5
+            else:
+                lenient = any(not w.fold and not w.crossings for w in step.windows)
+                self.refused = self.refused + opened if opened or lenient else 0
+                return step
         at = f"lam = {self.here.y[-1]:.9g}"
         fold = "; natural continuation ends at a fold" if self.natural else ""
         raise NoConvergence(f"the branch cannot be followed beyond {at}: {why}{fold}", () if why is None else why.history)
 
     # --- one attempt -------------------------------------------------------------------------------------------
 
-    def _tried(self, s: float, *, unverified: bool) -> Step:
+    def _tried(self, s: float, patience: Patience) -> Step:
         here, curve = self.here, self.curve
         row = self.row(here.tangent)
         guess = self._predicted(s, row)
@@ -147,7 +154,7 @@ class Walk:
         turn = curve.dot(here.tangent, segment.tb)
         if not turn > TURN:
             raise NoConvergence(f"the tangent turned by {math.degrees(math.acos(max(-1.0, min(1.0, turn)))):.0f} degrees", ())
-        step = self._shown(segment, found, unverified=unverified)
+        step = self._shown(segment, found, patience)
         self.before, self.here = here, step.b
         self.length = min(self.longest, s * min(GROWTH, max(0.3, (AIM / max(miss, 1e-12)) ** (1 / 3))))
         return step
@@ -167,7 +174,7 @@ class Walk:
         past = Segment(before.y, before.tangent, here.y, here.tangent, row)
         return past.at(past.length + s)
 
-    def _shown(self, segment: Segment, found: Corrected, *, unverified: bool) -> Step:
+    def _shown(self, segment: Segment, found: Corrected, patience: Patience) -> Step:
         """The step with what was shown of it. Raises `NoConvergence` when it is not explained."""
         spans = self.prover.spans(segment)
         last = spans[-1]
@@ -177,7 +184,7 @@ class Walk:
         a, b = self.here, Place(segment.b, segment.tb, index)
         if spans[0].kind == "regular" and a.index != spans[0].index:
             a = replace(a, index=spans[0].index)
-        windows = tuple(self.inspector.windows(segment, a, b, spans, unverified=unverified))
+        windows = tuple(self.inspector.windows(segment, a, b, spans, patience))
         return self._step(segment, found, index, self.prover.proves and all(w.fold for w in windows), windows)
 
     def _step(self, segment: Segment, found: Corrected, index: int | None, proved: bool, windows: tuple[Window, ...]) -> Step:
@@ -193,4 +200,5 @@ class Walk:
 
 def _scale(p: Point, step: float | None, toward: float | None) -> float:
     """1 where a length is given in it; else a tenth of the loads in question, so that loads and unknowns weigh alike."""
-    return 1.0 if step is not None else max(abs(p.lam), abs(toward or 0.0)) / 10 or 1.0
+    loads = max(abs(p.lam), abs(toward or 0.0)) / 10
+    return loads if step is None and loads > 1e-100 else 1.0

@@ -152,24 +152,20 @@ def _singular(window: Window, locator: Locator, step: Step) -> Iterator[Event]:
 
 def _folds(a: Place, b: Place, locator: Locator, step: Step) -> Iterator[Event]:
     """Every place between a and b where the load turns."""
-    segment = locator.segment(a, b)
-    parts = np.linspace(0.0, 1.0, SAMPLES + 1)
-    rates = segment.rates(parts)
-    for i in np.flatnonzero(rates[:-1] * rates[1:] < 0):
-        yield _fold_between(segment, locator, step, *(float(x) * segment.length for x in parts[i : i + 2]))
-
-
-def _fold_between(segment: Segment, locator: Locator, step: Step, low: float, high: float) -> Event:
-    curve = locator.curve
+    segment, curve = locator.segment(a, b), locator.curve
+    parts = np.linspace(0.0, 1.0, SAMPLES + 1) * segment.length
 
     def rate(sigma: float) -> float:
         y = _solution(segment, locator, sigma)
         return float(curve.tangent(y, segment.derivative(sigma))[-1])
 
-    if rate(low) * rate(high) > 0:
-        low, high = 0.0, segment.length
-    y = _solution(segment, locator, root(rate, low, high))
-    return _fold_at(y, segment, locator, step)
+    turns = np.flatnonzero(np.diff(np.sign(segment.rates(parts / segment.length))))
+    brackets = [(float(parts[i]), float(parts[i + 1])) for i in turns]
+    turning = [bracket for bracket in brackets if rate(bracket[0]) * rate(bracket[1]) < 0]
+    if not turning and rate(0.0) * rate(segment.length) < 0:
+        turning = [(0.0, segment.length)]  # where the cubic is wrong about the place
+    for low, high in turning:
+        yield _fold_at(_solution(segment, locator, root(rate, low, high)), segment, locator, step)
 
 
 def _exact_fold(crossing: Crossing, locator: Locator, step: Step) -> Event:

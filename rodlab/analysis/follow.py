@@ -21,7 +21,7 @@ from rodlab.numerics.arrays import Array, number, whole
 from rodlab.numerics.inertia import Inertia
 
 LOOKS = 8  # places of a step at which the limits are looked at
-FAR = 1e8  # loads beyond this many times those in question: the branch runs away
+FAR = 1e6  # loads beyond this many times those in question: the branch runs away
 
 Within = Mapping[str, tuple[float, float]] | Callable[[Point], Any] | None
 
@@ -141,10 +141,12 @@ def follow(
     """The branch through p as far as the load `to`, with the events met on the way.
 
     step: first and longest length of a step, |.|^2 = inner(du, du) + (dlam / scale)^2; None leaves it to the error of the
-    predictions. scale: 1 where a step is given, else a tenth of the loads in question. Direction: the point's tangent if it has one, else towards `to`. within: a function of a point that
-    is true inside, or ranges of measures, {"tip_angle": (-3, 3)} or {"lam": (0, 50)}. Ends exactly at `to`; on leaving
-    `within`; on closing; after max_points; and, having set out towards `to`, back at p.lam. watch: called with every
-    point as it is found.
+    predictions. scale: 1 where a step is given, else a tenth of the loads in question. Direction: the point's tangent if it
+    has one, else towards `to`. within: a function of a point that is true inside, or ranges of measures,
+    {"tip_angle": (-3, 3)} or {"lam": (0, 50)}. Ends exactly at `to`; on leaving `within`; on closing; after max_points;
+    and, having set out towards `to`, back at p.lam. watch: called with every point as it is found.
+    Where the Jacobian has no index (neither symmetric nor with a second variation) only the sign of its determinant is
+    followed: an even number of eigenvalues that cross zero in one step is then missed.
     Where no further step can be shown the branch ends there, `completed` is False and the reason says why.
     Raises `ValueError` for wrong arguments, or derivatives that are not those of the residual.
 
@@ -249,8 +251,8 @@ class _Stops:
                     break
                 except NoConvergence:  # a fold in the same place; or only the cubic passes this load
                     if (segment.a[-1] - load) * (segment.b[-1] - load) < 0:
-                        part, y = self._by_arclength(segment, load)
-                        yield part, self._point(segment, part, step, y), reason
+                        exact, y = self._by_arclength(segment, load)
+                        yield exact, self._point(segment, exact, step, y), reason
                         break
 
     def _by_arclength(self, segment: Segment, load: float) -> tuple[float, Array]:

@@ -9,7 +9,6 @@ Solutions near by are those of the p algebraic bifurcation equations b(xi, mu) =
 fitted in units (rho, mu_0) in which all branches that leave are of size one; its roots are the directions of the branches.
 """
 
-from functools import cached_property
 from itertools import combinations_with_replacement
 from typing import Any
 
@@ -149,11 +148,11 @@ class Polynomial:
         """True when the load itself enters at first order: a fold in the same place."""
         return bool(np.abs(self.coefficients[self.powers.index((self.p,))]).max() > 1e-3)
 
-    @cached_property
-    def rate(self) -> Array:
-        """d^2 b / dx dm at the branch point, (p, p): how the p eigenvalues cross as the load grows."""
-        here, later = (self.jacobian(np.append(np.zeros(self.p), m)[None])[0] for m in (0.0, 1.0))
-        return np.asarray((later - here)[:, :-1])
+    @property
+    def rates(self) -> tuple[Array, Array]:
+        """Change of db/dx, (p, p), before and after the branch point: how the p eigenvalues cross as the load grows."""
+        before, here, after = (self.jacobian(np.append(np.zeros(self.p), m)[None])[0][:, :-1] for m in (-1.0, 0.0, 1.0))
+        return here - before, after - here
 
 
 def _distinct(points: Array) -> Array:

@@ -9,6 +9,7 @@ open, nothing explains it    refused: the step is too long
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from rodlab.analysis.crossings import Crossing, Locator, Place
 from rodlab.analysis.curve import Segment
@@ -16,9 +17,14 @@ from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.proof import Prover, Span
 from rodlab.analysis.touching import touching
 
-PARTS = 3  # times a part that stays open is halved, the solution half-way computed
+FINE = 2.0**-3  # the smallest part of such a half that is tried
+PARTS = 2  # times a part that stays open is halved, the solution half-way computed
 HALFWAY = 2e-3  # how far half-way from the cubic, as a part of its length, where nothing better can be shown
 TINY = 1e-5  # parts shorter than this, relative to the point, may stay open: rounding hides what is there
+
+
+class Open(NoConvergence):
+    """A part of the step could not be shown; a shorter one may be."""
 
 
 class Unverified(NoConvergence):
@@ -40,14 +46,21 @@ class Window:
         return float(self.a.tangent[-1]) * float(self.b.tangent[-1]) < 0
 
 
+class Patience(NamedTuple):
+    """Whether a shorter step may still be asked for: to show an open part, to verify an index."""
+
+    show: bool = True
+    verify: bool = True
+
+
 class Inspector:
     """Explains the parts of a step that are not regular, or refuses it."""
 
     def __init__(self, prover: Prover, locator: Locator) -> None:
         self.prover, self.locator, self.curve = prover, locator, locator.curve
 
-    def windows(self, segment: Segment, a: Place, b: Place, spans: list[Span], *, unverified: bool) -> Iterator[Window]:
-        """The windows of a step, in order. unverified: accept an index that cannot be verified at its end.
+    def windows(self, segment: Segment, a: Place, b: Place, spans: list[Span], patience: Patience) -> Iterator[Window]:
+        """The windows of a step, in order; with no patience left what cannot be shown is checked.
 
         Raises `NoConvergence` where a part cannot be explained.
         """
@@ -57,7 +70,7 @@ class Inspector:
             if all(span.kind == "fold" for span in group):
                 yield Window(left, right, fold=True)
             elif left.index is None or right.index is None:
-                if left.index is not None and not unverified:
+                if left.index is not None and patience.verify:
                     raise Unverified("the index at the end of the step cannot be verified", ())
                 self._halfway(left, right)
                 yield Window(left, right, fold=False)
@@ -67,12 +80,12 @@ class Inspector:
                     self._halfway(left, right)
                 yield Window(left, right, fold=False, crossings=crossings)
             else:
-                yield from self._explained(left, right)
+                yield from self._explained(left, right, patience)
 
-    def _explained(self, left: Place, right: Place) -> Iterator[Window]:
+    def _explained(self, left: Place, right: Place, patience: Patience) -> Iterator[Window]:
         crossings = self.locator.between(left, right)
         if not crossings:
-            yield from self._part(left, right)
+            yield from self._part(left, right, patience)
             return
         last = left
         for crossing in crossings:
@@ -89,9 +102,9 @@ class Inspector:
             self.curve.norm(right.y - left.y) > TINY * self.curve.norm(right.y)
             and float(self.curve.row(left.tangent) @ (right.y - left.y)) > 0
         ):
-            yield from self._part(left, right, beside=True)
+            yield from self._part(left, right, Patience(show=False))
 
-    def _part(self, left: Place, right: Place, *, beside: bool = False) -> Iterator[Window]:
+    def _part(self, left: Place, right: Place, patience: Patience) -> Iterator[Window]:
         """A part whose index stays."""
         shown = self._by_parts(left, right, PARTS)
         if shown == {"regular"}:
@@ -99,14 +112,18 @@ class Inspector:
         if "open" not in shown:
             yield Window(left, right, fold=True)
             return
-        touch = None if beside else touching(self.locator, left, right)
+        touch = touching(self.locator, left, right)
         if touch is not None:
             yield Window(left, right, fold=False, crossings=(touch,))
             return
-        if not beside and self.curve.norm(right.y - left.y) > TINY * max(1.0, self.curve.norm(right.y)):
-            raise NoConvergence("part of the step could not be shown to stay on the branch", ())
+        window = Window(left, right, fold=False)
+        if self.curve.norm(right.y - left.y) > TINY * max(1.0, self.curve.norm(right.y)):
+            if patience.show or window.turns:
+                raise Open("part of the step could not be shown to stay on the branch", ())
+            for part in (0.25, 0.75):
+                self._halfway(left, right, part)
         self._halfway(left, right)
-        yield Window(left, right, fold=False)
+        yield window
 
     def _by_parts(self, left: Place, right: Place, depth: int) -> set[str]:
         """What can be shown when the solution half-way is computed as well, and again in the halves."""
@@ -115,7 +132,7 @@ class Inspector:
             raise NoConvergence(f"the index is {middle.index} half-way between two places where it is {left.index}", ())
         kinds: set[str] = set()
         for a, b in ((left, middle), (middle, right)):
-            spans = self.prover.spans(self.locator.segment(a, b))
+            spans = self.prover.spans(self.locator.segment(a, b), FINE)
             if any(span.index not in (None, left.index) for span in spans):
                 raise NoConvergence("the index changes and changes back within a step", ())
             shown = {str(span.kind) for span in spans}
@@ -135,11 +152,11 @@ class Inspector:
         piece = self.locator.segment(left, right)
         return self.locator.place(piece, piece.length / 2)
 
-    def _halfway(self, left: Place, right: Place) -> None:
+    def _halfway(self, left: Place, right: Place, part: float = 0.5) -> None:
         """Raise unless the solution half-way is where the cubic says, with the same index."""
         piece = self.locator.segment(left, right)
-        middle = self.locator.place(piece, piece.length / 2)
-        off = self.curve.norm(middle.y - piece.at(piece.length / 2))
+        middle = self.locator.place(piece, part * piece.length)
+        off = self.curve.norm(middle.y - piece.at(part * piece.length))
         if off > HALFWAY * abs(piece.length):
             raise NoConvergence(f"half-way the branch is {off / abs(piece.length):.1g} of the length beside its cubic", ())
         if left.index is not None and middle.index is not None and middle.index != left.index:

@@ -8,6 +8,7 @@ the signs of the roots sum to the Euler characteristic of the sphere.
 """
 
 from collections.abc import Iterator
+from contextlib import suppress
 
 import numpy as np
 
@@ -126,9 +127,8 @@ class _Leaving:
 
     def _complete(self, roots: Array) -> bool:
         """Poincare and Hopf: signs of the tangential field sum to 0 on the circle, 2 on S^0 and S^2, if all cross one way."""
-        rate = self.polynomial.rate
-        w = np.linalg.eigvalsh(rate + rate.T)
-        if self.polynomial.turns or float(w.min() * w.max()) <= 0:
+        rates = [np.linalg.eigvalsh(rate + rate.T) for rate in self.polynomial.rates]
+        if self.polynomial.turns or not any(all((sign * w > 0).all() for w in rates) for sign in (1, -1)):
             return True
         signs = 0
         for J, xm in zip(self.polynomial.jacobian(roots), roots, strict=True):
@@ -172,10 +172,8 @@ class _Leaving:
         curve, parent = self.near, self.parent / self.near.norm(self.parent)
         row = curve.row(parent)
         guess = self.reduced.y + float(row @ (y - self.reduced.y)) * parent
-        try:
+        with suppress(NoConvergence):  # where the plane is too near the branch point the tangent must do
             guess = curve.correct(guess, row).y
-        except NoConvergence:  # the plane is too near the branch point: the tangent must do
-            pass
         return curve.norm(y - guess) > 0.1 * curve.norm(y - self.reduced.y)
 
     def _apart(self, p: Point, q: Point) -> bool:
