@@ -142,6 +142,161 @@ def test_a_closed_pipe_is_no_error():
     assert "Traceback" not in done.stderr
 
 
+# --- branches and scenes -------------------------------------------------------------------------------------------------
+
+
+def test_follow_as_json(capsys):
+    assert cli.main(["follow", "-n", "50", "--u-hat", "0.01", "--to", "30", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["schema"] == 1
+    assert answer["end"] == "lam = 30 reached"
+    assert set(answer["points"][0]) >= {"lam", "tip_angle", "height", "energy", "index", "accepted", "error"}
+    assert answer["points"][0]["lam"] == 0.0
+    assert answer["points"][-1]["lam"] == 30.0
+    upper = rodlab.equilibrium(rodlab.Strut(n=50, u_hat=0.01), 30.0, lambda s: 3.1 * np.sin(np.pi * s / 2) ** 0.3)
+    assert answer["points"][-1]["tip_angle"] == pytest.approx(upper.tip_angle, abs=1e-12)
+    assert all(p["index"] == 0 and p["accepted"] in ("given", "proved") for p in answer["points"])
+    assert [set(e) >= {"kind", "lam", "error"} for e in answer["events"]] == [True]
+
+
+def test_follow_a_mode_from_its_branch_point(capsys):
+    assert cli.main(["follow", "-n", "1000", "--mode", "2", "--to", "40", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["points"][0]["lam"] == pytest.approx(22.2, abs=0.1)
+    assert {p["index"] for p in answer["points"]} == {1}
+    assert answer["points"][-1]["lam"] == 40.0
+
+
+def test_follow_a_detached_branch_for_a_person(capsys, tmp_path):
+    out = tmp_path / "b.json"
+    arguments = ["follow", "-n", "50", "--u-hat", "0.01", "--from", "10", "--guess=-3*sin(pi*s/2)", "--to", "0"]
+    assert cli.main([*arguments, "--step", "0.5", "--out", str(out)]) == 0
+    text = capsys.readouterr().out
+    assert "fold" in text
+    assert "back at lam = 10" in text
+    b = rodlab.read(out)
+    assert b.events[0].lam == pytest.approx(2.51235753616, abs=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "says"),
+    [
+        (["--to", "nan"], 2, "to must be a finite number; it is nan"),
+        (["--to", "5", "--from", "inf"], 2, "from must be a finite number"),
+        (["--to", "0"], 2, "to must differ from the load of p"),
+        (["--to", "5", "--step", "-1"], 2, "step must be a finite number above 0"),
+        (["--to", "5", "--mode", "0"], 2, "a mode number must be a whole number, at least 1"),
+        (["--to", "5", "--mode", "200"], 2, "modes must be at most n = 100"),
+        (["--to", "5", "--mode", "3"], 2, "to must be above the load of mode 3"),
+        (["--to", "5", "--mode", "1", "--u-hat", "0.1"], 2, "model must be straight to buckle"),
+        (["--to", "5", "--mode", "1", "--guess", "s"], 2, "guess must not be given with mode"),
+        (["--to", "5", "--guess", "import os"], 2, "is not an expression in s"),
+        (["--to", "5", "--u-hat", "x"], 2, "is not an expression in s"),
+        (["--to", "5", "--max-points", "0"], 2, "max_points must be a whole number, at least 1"),
+        (["--to", "5", "--u-hat", "0.1", "--max-points", "3"], 3, "max_points, 3, reached"),
+        (["--to", "5", "--out", "b.pkl"], 2, "path must end in .json or .npz"),
+        ([], 2, "--to"),
+    ],
+)
+def test_follow_says_what_is_wrong(arguments, code, says, capsys):
+    try:
+        found = cli.main(["follow", *arguments])
+    except SystemExit as stop:
+        found = stop.code
+    seen = capsys.readouterr()
+    assert found == code
+    assert says in seen.err
+    assert "Traceback" not in seen.err
+
+
+def test_scenes_are_listed(capsys):
+    assert cli.main(["scenes"]) == 0
+    out = capsys.readouterr().out
+    assert "imperfect " in out
+    assert cli.main(["scenes", "--json"]) == 0
+    names = [s["name"] for s in json.loads(capsys.readouterr().out)["scenes"]]
+    assert {"strut", "imperfect", "two-joints", "bend", "self-weight"} <= set(names)
+
+
+def scene_names():
+    from rodlab.lab.scene import scenes
+
+    return [s.name for s in scenes()]
+
+
+TRUTHS = {
+    "two-joints": [("branch point", (3 - 5**0.5) / 2, 1e-12), ("branch point", (3 + 5**0.5) / 2, 1e-12)],
+    "self-weight": [("branch point", 7.8373474, 1e-4)],
+    "stiffness-jump": [("branch point", 2.96015, 1e-4)],
+    "bend": [("fold", -0.1438649097, 1e-9), ("fold", 0.1438649097, 1e-9)],
+    "many-loads": [("branch point", 4e6 * np.sin((2 * j - 1) * np.pi / 4002) ** 2, 1e-8) for j in range(1, 33)],
+}
+
+
+@pytest.mark.parametrize("name", scene_names())
+def test_every_scene_of_the_house_runs(name, tmp_path, capsys):
+    assert cli.main(["run", name, "--out", str(tmp_path), "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert all(b["completed"] for b in answer["branches"])
+    assert {path.name for path in tmp_path.iterdir()} == {path.split("/")[-1] for path in answer["files"]}
+    assert json.loads((tmp_path / "scene.json").read_text())["scene"] == name
+    assert (tmp_path / "diagram.png").exists() == (name != "many-loads")
+    found = [(e["kind"], e["lam"]) for e in answer["branches"][0]["events"] if e["kind"] != "end"]
+    for (kind, lam), (wanted, exact, within) in zip(found, TRUTHS[name], strict=True) if name in TRUTHS else ():
+        assert kind == wanted
+        assert lam == pytest.approx(exact, abs=within)
+    assert len(rodlab.read(tmp_path / "branch-1.json").points) == len(answer["branches"][0]["points"])
+
+
+def test_a_scene_of_ones_own(tmp_path, capsys):
+    mine = tmp_path / "mine.toml"
+    mine.write_text('[model]\nn = 4\nu_hat = "s"\n[[follow]]\nto = 3\nstep = 0.5\nevents = []\nwithin = {tip_angle = [0, 0.9]}\n')
+    assert cli.main(["run", str(mine)]) == 0
+    assert "branch 1" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("[model", "is not TOML"),
+        ("", "a scene needs a [model] table"),
+        ("[model]\nn = 3", "a scene needs at least one [[follow]] table"),
+        ("[model]\nn = 3\n[[follow]]\nfrom = 1", "to is missing"),
+        ("[model]\nn = 3\n[[follow]]\nto = 1\nuntil = 2", "until is none of these"),
+        ("[model]\nn = 3\n[[follow]]\nto = 'x'", "to must be a finite number"),
+        ("[model]\nm = 3\n[[follow]]\nto = 1", "a model must be made of"),
+        ("[model]\nn = 3\nterms = {wind = {p = 1}}\n[[follow]]\nto = 1", "terms must be among"),
+        ("[model]\nn = 3\nterms = {self_weight = {p = 1}}\n[[follow]]\nto = 1", "terms.self_weight has the wrong parameters"),
+        ("[model]\nn = 3\nlam = 2\n[[follow]]\nto = 1", "lam must be given in a model only with vary"),
+        ("[model]\nn = 3\nvary = 'K'\n[[follow]]\nto = 1", "lam must be given where K is followed"),
+        ("[model]\nn = 3\n[[follow]]\nto = 1\nevents = ['hopf']", "events must be among"),
+        ("[model]\nn = 3\n[[follow]]\nto = 1\nwithin = 3", "within must be a table"),
+        ("[model]\nn = 3\n[[follow]]\nto = 1\nswitch = -1", "switch must be a whole number"),
+        ("[model]\nn = 3\n[[follow]]\nto = 1\n[draw]\nx = 'lam'", "[draw] takes y"),
+        ("[model]\nn = 3\n[[follow]]\nto = 1\n[colour]\nx = 1", "colour is none of these"),
+        ("model = 3\n[[follow]]\nto = 1", "a scene needs a [model] table"),
+    ],
+)
+def test_a_wrong_scene_gets_a_sentence(text, says, tmp_path, capsys):
+    (tmp_path / "mine.toml").write_text(text)
+    assert cli.main(["run", str(tmp_path / "mine.toml"), "--out", str(tmp_path / "out")]) == 2
+    seen = capsys.readouterr()
+    assert says in seen.err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_scene_that_is_not_there(capsys):
+    assert cli.main(["run", "nowhere"]) == 2
+    assert "scene must be one of bend, imperfect" in capsys.readouterr().err
+    assert cli.main(["run", "nowhere.toml"]) == 2
+    assert "cannot be read" in capsys.readouterr().err
+
+
+def test_follow_never_imports_sympy_or_matplotlib():
+    seen = imported_by("import rodlab.cli; rodlab.cli.main(['follow', '-n', '10', '--u-hat', '0.1', '--to', '5'])")
+    assert not seen & {"sympy", "matplotlib", "tqdm"}
+
+
 # --- imports on demand -----------------------------------------------------------------------------------------------
 
 
@@ -187,7 +342,8 @@ def toured(tmp_path_factory):
 def test_the_tour_tells_and_writes(toured):
     _, out, folder = toured
     names = {path.name for path in folder.iterdir()}
-    assert names == {"loads.png", "shapes.png", "loads.csv", "equilibria.csv", "tour.json"}
+    data = {"loads.csv", "equilibria.csv", "branches.csv", "tour.json"}
+    assert names == {"diagram.png", "loads.png", "shapes.png"} | data
     assert (folder / "loads.png").read_bytes().startswith(b"\x89PNG")
     assert 'rule "trapezoid"' in out
     assert "rod, exact" in out
@@ -201,6 +357,12 @@ def test_the_numbers_of_the_tour_are_true(toured):
     for entry in answer["extrapolated"]:
         assert entry["error"] <= entry["estimate"] < 1e-8
         assert entry["limit"] == pytest.approx(((2 * entry["mode"] - 1) * np.pi / 2) ** 2, rel=1e-15)
+    branches = {entry["branch"]: entry for entry in answer["branches"]}
+    assert list(branches) == ["straight", "mode 1", "mode 2", "mode 3", "imperfect", "detached"]
+    assert "fold 2.8966" in branches["detached"]["events"]
+    for entry in branches.values():
+        assert entry["proved"] + entry["checked"] >= entry["points"] - 1
+        assert entry["proved"] >= 2 * entry["checked"] or entry["branch"] == "straight"
     indices = {}
     for entry in answer["equilibria"]:
         assert entry["index_verified"]

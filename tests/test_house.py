@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 import rodlab
+from rodlab import files
 from rodlab.lab import loads, store
-from rodlab.lab.buckled import buckled
+
 from rodlab.mechanics.expression import Expression
 from rodlab.mechanics.profile import Profile
 from rodlab.numerics.quadrature import integrals
@@ -147,23 +148,23 @@ def test_profiles_take_what_the_readme_says():
 
 
 def test_files_are_whole_or_absent(tmp_path):
-    path = store.write_whole(tmp_path / "a" / "b.txt", "content")
+    path = files.write_whole(tmp_path / "a" / "b.txt", "content")
     assert path.read_text() == "content"
     assert [p.name for p in path.parent.iterdir()] == ["b.txt"]
     with pytest.raises(ValueError, match=r"b\.txt.* cannot be written"):
-        store.write_whole(path / "c", "content")
+        files.write_whole(path / "c", "content")
     assert path.read_text() == "content"
 
 
 def test_a_failing_disk_leaves_the_old_file(tmp_path, monkeypatch):
-    path = store.write_whole(tmp_path / "b.txt", "old")
+    path = files.write_whole(tmp_path / "b.txt", "old")
 
     def full(_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(store.os, "fsync", full)
+    monkeypatch.setattr(files.os, "fsync", full)
     with pytest.raises(ValueError, match="cannot be written: No space left on device"):
-        store.write_whole(path, "new")
+        files.write_whole(path, "new")
     assert path.read_text() == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["b.txt"]
 
@@ -184,9 +185,3 @@ def test_extrapolation_gains_and_knows_its_error():
     assert best.error < 1e-4 * entries[-1].error
     with_two = loads.extrapolate(entries[-2:])
     assert entries[-1].error / with_two.error > 50
-
-
-def test_a_buckled_shape_needs_a_load_above_its_own():
-    known = rodlab.buckling(rodlab.Strut(n=10), 2)
-    with pytest.raises(ValueError, match="loads must be above the load of mode 2"):
-        list(buckled(known, 2, [5.0]))
