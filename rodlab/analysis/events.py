@@ -162,7 +162,7 @@ def _folds(a: Place, b: Place, locator: Locator, step: Step) -> Iterator[Event]:
     turns = np.flatnonzero(np.diff(np.sign(segment.rates(parts / segment.length))))
     brackets = [(float(parts[i]), float(parts[i + 1])) for i in turns]
     turning = [bracket for bracket in brackets if rate(bracket[0]) * rate(bracket[1]) < 0]
-    if not turning and rate(0.0) * rate(segment.length) < 0:
+    if not turning and float(a.tangent[-1]) * float(b.tangent[-1]) < 0:
         turning = [(0.0, segment.length)]  # where the cubic is wrong about the place
     for low, high in turning:
         yield _fold_at(_solution(segment, locator, root(rate, low, high)), segment, locator, step)

@@ -115,6 +115,9 @@ def passages(segment: Segment, lam: float) -> list[float]:
     """Parts of its length, above 0 and up to 1, at which the cubic passes a load."""
     a, b = float(segment.a[-1]), float(segment.b[-1])
     da, db = (segment.length * float(slope[-1]) for slope in segment.slopes)
+    hull = (a, a + da / 3, b - db / 3, b)
+    if not min(hull) <= lam <= max(hull):
+        return []
     cubic = np.array([da + db - 2 * (b - a), 3 * (b - a) - 2 * da - db, da, a - lam])
     roots = np.roots(cubic[:-1] if a == lam else cubic)
     real = sorted(float(x.real) for x in roots if abs(x.imag) <= 1e-9 * (1 + abs(x)))

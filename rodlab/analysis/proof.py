@@ -26,8 +26,8 @@ from rodlab.numerics.bordered import OneBorder
 from rodlab.numerics.factor import factor, index_within, largest_change, shifted
 
 MARGIN = 1.01  # on every bound, for rounding in computing it
+WIDEST = 0.5  # radius of a tube
 FINEST = 2.0**-5  # the smallest part of a segment that is tried
-FINER = 2.0**-9  # likewise where nothing explains why a part resists
 
 Kind = Literal["regular", "fold", "open"]
 
@@ -82,7 +82,7 @@ class Prover:
             return [Span(0.0, length, "open", None)]
         found: list[Span] = []
         waiting = [(0.0, 1.0)]
-        gate = float(np.abs(segment.b - segment.a)[:-1].max(initial=0.0)) / 128 + 1e-9
+        gate = float(np.abs(segment.b - segment.a)[:-1].max(initial=0.0)) / 32 + 1e-9
         ends: dict[float, tuple[Array, float]] = {0.0: (segment.a, 0.0), 1.0: (segment.b, 0.0)}
         for x in (0.0, 1.0):
             ends[x] = (ends[x][0], self._residual(ends[x][0]))
@@ -107,7 +107,7 @@ class Prover:
     def _chord(self, a: tuple[Array, float], b: tuple[Array, float], gate: float) -> _Chord:
         half, middle = (b[0] - a[0]) / 2, (a[0] + b[0]) / 2
         du, dlam = np.abs(half[:-1]), abs(float(half[-1]))
-        r = max(float(du.max(initial=0.0)) / 4, gate)
+        r = max(float(du.max(initial=0.0)) / 8, gate)
         bound = self.lipschitz(middle[:-1], float(middle[-1])) if self.proves else None
         return _Chord(a[0], b[0], max(a[1], b[1]), middle, du, dlam, r, dlam / 4 + gate, gate / 2, bound)
 
@@ -123,16 +123,18 @@ class Prover:
         matrix = self.curve.second_variation(chord.middle)
         if not self.proves:
             return self._regular_as_seen(chord, matrix)
-        rho = chord.residual + _bend(chord, *self._bounds(chord, 0.0))
-        for r in (chord.r, max(16 * chord.r, 0.03)):  # a wider tube asks less of the residual and more of J
-            d, _ = self._bounds(chord, r)
-            kappa = max(self._held(chord, rho, r), self._held(chord, chord.residual, chord.gate))
-            index = index_within(matrix, MARGIN * d + kappa) if math.isfinite(kappa) else None
-            if index is not None:
-                return index
-            if kappa < np.max(d):
-                break
-        return None
+        rho, r = self._tube(chord)
+        kappa = max(self._held(chord, rho, r), self._held(chord, chord.residual, chord.gate))
+        return index_within(matrix, MARGIN * self._bounds(chord, r)[0] + kappa) if math.isfinite(kappa) else None
+
+    def _tube(self, chord: _Chord) -> tuple[float, float]:
+        """Bound rho on F along the chord, and the radius r for which little is asked of J: rho / r + the change of J with r."""
+        at_rest, wider = self._bounds(chord, 0.0), self._bounds(chord, chord.r)
+        rho = chord.residual + _bend(chord, *at_rest)
+        slope = float(np.max(wider[0]) - np.max(at_rest[0])) / chord.r
+        asked = self._held(chord, rho, chord.r) * chord.r
+        r = math.sqrt(asked / slope) if slope > 0 and math.isfinite(asked) else chord.r
+        return rho, min(max(r, chord.r), max(WIDEST, chord.r))
 
     def _held(self, chord: _Chord, rho: float, r: float) -> float:
         """kappa for which a residual rho moves a solution by less than r: rho sqrt(a / kappa + b / kappa^2) = r."""
@@ -151,7 +153,8 @@ class Prover:
         if not f.any() or float(f @ step[:-1]) == 0:
             return False
         J = curve.jacobian(chord.middle)
-        rho = chord.residual + _bend(chord, *self._bounds(chord, 0.0))
+        rho, r = self._tube(chord)
+        chord = chord._replace(r=r, r_lam=max(chord.r_lam, chord.dlam))
         d, c = self._bounds(chord, chord.r, chord.r_lam)
         with np.errstate(all="ignore"):
             z = OneBorder(factor(J), f, f, 0.0).solve(np.append(np.zeros_like(f), 1.0))[:-1]
@@ -201,7 +204,7 @@ class Prover:
         return known
 
     def _embedding(self, chord: _Chord) -> tuple[float, float]:
-        a, b = self.curve.embedding(abs(float(chord.middle[-1])) + 2 * chord.dlam)
+        a, b = self.curve.embedding(abs(float(chord.middle[-1])) + chord.dlam + chord.r_lam)
         return MARGIN * a, MARGIN * b
 
 
