@@ -98,11 +98,14 @@ def buckling(chosen: argparse.Namespace) -> int:
 
 def follow(chosen: argparse.Namespace) -> int:
     """rodlab follow"""
+    from rodlab.analysis.saved import place
     from rodlab.lab import answers
     from rodlab.lab.following import followed
     from rodlab.lab.store import as_json, framed
 
     start = time.perf_counter()
+    if chosen.out:
+        place(chosen.out)  # a wrong name is said before the work, not after it
     arguments = {"n": chosen.n, "K": _number_or_text(chosen.K), "u_hat": _number_or_text(chosen.u_hat), "rule": chosen.rule}
     strut, branch = followed(
         {**arguments, "breaks": tuple(chosen.breaks)}, chosen.start, chosen.to, mode=chosen.mode, guess=chosen.guess,
@@ -186,7 +189,7 @@ def _parser() -> argparse.ArgumentParser:
     verb.add_argument("--from", dest="start", type=float, default=0.0, metavar="LAM", help="load to start at (default: 0)")
     verb.add_argument("--to", type=float, required=True, metavar="LAM", help="load to end at")
     verb.add_argument("--mode", type=int, help="the branch that buckles in this mode, from its branch point")
-    verb.add_argument("--guess", help="first guess of the angles at --from, an expression in s (default: unstressed)")
+    verb.add_argument("--guess", help='first guess at --from, --guess="-3*sin(pi*s/2)" (default: unstressed)')
     verb.add_argument("--step", type=float, help="first and longest length of a step (default: by error)")
     verb.add_argument("--max-points", type=int, default=10_000, help="points at most (default: %(default)s)")
     verb.add_argument("--out", metavar="FILE", help="also save the branch, to a .json or .npz file")

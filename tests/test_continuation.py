@@ -62,6 +62,47 @@ def test_a_class_without_bounds_does_not_jump_either(u_hat, step):
     assert all(p.checked and p.index == 0 for p in b.points[1:])
 
 
+@pytest.mark.parametrize(("n", "lam", "step"), [(10, 10.0, 0.5), (4, 10.0, None), (2, 10.0, 1.0)])
+@pytest.mark.parametrize("bare", [False, True])
+def test_down_past_a_pitchfork_that_an_imperfection_broke(n, lam, step, bare):
+    strut = rl.Strut(n=n, u_hat=1e-4)
+    p = rl.equilibrium(strut, lam, lambda s: 3 * s)
+    b = rl.follow(rl.Point(Bare(strut) if bare else strut, lam, p.u), to=1.0, step=step)
+    assert b.reason == "lam = 1 reached"
+    assert [e.kind for e in b.events] == ["end"]
+    assert (np.abs(b.points[-1].u) < 1e-3).all()
+
+
+@pytest.mark.parametrize(("n", "u_hat", "lam", "to", "fold"), [(20, 0.2, 30.0, -50.0, 22.4562), (7, 0.016, 113.0, 1.0, 2.26003)])
+@pytest.mark.parametrize("step", [None, 5.0, 1.0])
+def test_detached_branches_turn_at_their_fold(n, u_hat, lam, to, fold, step):
+    b = rl.follow(rl.equilibrium(rl.Strut(n=n, u_hat=u_hat), lam, lambda s: -2 * s), to=to, step=step)
+    assert [e.kind for e in b.events] == ["fold", "end"]
+    assert b.events[0].lam == pytest.approx(fold, abs=1e-4)
+    assert b.reason == f"back at lam = {lam:g}"
+
+
+def test_a_second_variation_that_is_not_the_jacobian_proves_nothing():
+    class Other(Scalar):
+        def second_variation(self, u, lam):
+            return np.eye(1)
+
+        def lipschitz(self, u, lam):
+            return lambda du, dlam: (dlam + 0 * du, 0.0)
+
+    model = Other(lambda u, lam: u * (lam - 1), lambda u, lam: lam - 1, lambda u, lam: u)
+    b = rl.follow(rl.equilibrium(model, 0.0, [0.0]), to=2.0)
+    assert not any(p.proved for p in b.points)
+
+
+def test_nearly_degenerate_branches_are_followed_far():
+    trivial = rl.follow(rl.equilibrium(rl.Strut(n=100), 0.0), to=30.0)
+    b = rl.follow(rl.switch(trivial.events[1])[0], to=2200.0)
+    assert b.completed
+    assert len(b.points) < 60
+    assert b.points[-1].index == 1
+
+
 @pytest.mark.parametrize("u_hat", [1e-6, 1e-10])
 def test_imperfections_that_no_eye_sees_are_still_followed_round_the_corner(u_hat):
     b = rl.follow(rl.equilibrium(rl.Strut(n=10, u_hat=u_hat), 0.0), to=5.0)
@@ -205,7 +246,6 @@ def test_within_limits_and_max_points():
     assert b.points[-1].lam == pytest.approx(2.0, abs=1e-9)
     b = rl.follow(p, to=30.0, step=0.1, max_points=5)
     assert len(b.points) == 5
-    assert not b.completed
     assert "max_points" in b.reason
 
 
@@ -224,6 +264,8 @@ def test_loads_between_points():
     assert p.tip_angle == pytest.approx(rl.equilibrium(p.equations, 7.77, p.u).tip_angle, abs=1e-14)
     assert b.at(1.0) == []
     back = rl.follow(rl.equilibrium(circle, 0.0, [1.0]), to=3.0)
+    near = float(back.lam.max()) + 0.5 * (1 - float(back.lam.max()))  # between the fold and its neighbours
+    assert len(back.at(near)) == 2
     assert [p.u[0] for p in back.at(0.5)] == pytest.approx([np.sqrt(0.75), -np.sqrt(0.75)], abs=1e-14)
 
 
@@ -273,7 +315,7 @@ def test_wrong_arguments_get_a_sentence():
         (lambda: rl.follow(p, 3.0, within={"tip_angle": (2, 3)}), "p must lie within"),
         (lambda: rl.follow(p, 3.0, max_points=0), "max_points must be a whole number"),
         (lambda: rl.follow(p, 3.0, scale=-1.0), "scale must be a finite number above 0"),
-        (lambda: next(rl.branch(p, step=-1)), "step must be a finite number above 0"),
+        (lambda: rl.branch(p, step=-1), "step must be a finite number above 0"),
     ):
         with pytest.raises(ValueError, match=says):
             run()
@@ -310,7 +352,7 @@ def test_a_wrong_derivative_is_named(model, says):
     with pytest.raises(ValueError, match=says):
         rl.follow(p, to=2.0)
     with pytest.raises(ValueError, match=says):
-        next(rl.branch(p))
+        rl.branch(p)
 
 
 def test_a_transposed_jacobian_is_called_that():

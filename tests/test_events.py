@@ -324,6 +324,8 @@ def test_every_parameter_and_its_derivative(strut, name, value):
     e = 1e-5
     slope = (varied.at(value + e).gradient(u, 2.5) - varied.at(value - e).gradient(u, 2.5)) / (2 * e)
     assert varied.d_lam(u, value) == pytest.approx(slope, abs=1e-8)
+    assert rl.Point(varied, value, u).z == pytest.approx(at.shape(u)[1], abs=1e-14)
+    assert rl.Point(varied, value, u).phi == pytest.approx(at.nodes(u)[1], abs=1e-14)
     assert varied.measures["energy"](u, value) == pytest.approx(at.energy(u, 2.5), abs=1e-12)
     assert rl.vary(strut, name, 2.5).residual(u, varied.value) == pytest.approx(strut.gradient(u, 2.5), abs=1e-13)
 
@@ -357,6 +359,8 @@ def test_what_cannot_be_varied_gets_a_sentence():
         rl.vary(rl.Strut(n=3), "lam", 1.0)
     with pytest.raises(ValueError, match="phi0 cannot be followed where a term is quadratic"):
         rl.vary(rl.Strut(n=3, terms=(rl.foundation(1.0),)), "phi0", 1.0)
+    with pytest.raises(ValueError, match="beta must be given to be followed"):
+        rl.vary(rl.Strut.from_joints(k=[1, 1]), "beta", 1.0)
     with pytest.raises(ValueError, match="a strut has no argument m; it has n, K"):
         rl.Strut(n=3).replace(m=4)
 

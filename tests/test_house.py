@@ -14,7 +14,6 @@ import pytest
 import rodlab
 from rodlab import files
 from rodlab.lab import loads, store
-
 from rodlab.mechanics.expression import Expression
 from rodlab.mechanics.profile import Profile
 from rodlab.numerics.quadrature import integrals

@@ -67,7 +67,11 @@ def branch(
     >>> [round(q.lam, 3) for q in islice(branch(equilibrium(Strut(n=10, u_hat=0.1), 0.0), 0.5), 4)]
     [0.5, 0.999, 1.494, 1.894]
     """
-    walk = Walk(p, step=step, toward=toward, natural=natural, scale=scale)
+    walk = Walk(p, step=number("step", step, above=0.0), toward=toward, natural=natural, scale=scale)
+    return _points(walk)
+
+
+def _points(walk: "Walk") -> Iterator[Point]:
     while True:
         yield walk.advance().point
 
@@ -103,7 +107,7 @@ class Walk:
             return self.curve.tangent(y, np.append(near.right[:, 0], 0.0))
 
     def _first(self, p: Point, toward: float | None) -> float:
-        """A first length: a small part of the way, or for a point next to a branch point of the way come from there."""
+        """A first length: that given, else a small part of the way."""
         if math.isfinite(self.longest):
             return self.longest
         way = abs(toward - p.lam) / self.curve.scale / 20 if toward is not None and toward != p.lam else 0.1
@@ -182,15 +186,15 @@ class Walk:
             self.locator.place(segment, segment.length / 2)  # and half-way
         index = last.index if last.kind == "regular" else self.curve.index(segment.b)
         a, b = self.here, Place(segment.b, segment.tb, index)
-        if spans[0].kind == "regular" and a.index != spans[0].index:
+        if a.index is None and spans[0].index is not None:
             a = replace(a, index=spans[0].index)
-        windows = tuple(self.inspector.windows(segment, a, b, spans, patience))
-        return self._step(segment, found, index, self.prover.proves and all(w.fold for w in windows), windows)
+        windows, shown = self.inspector.explain(segment, a, b, spans, patience)
+        return self._step(segment, found, index, shown and self.prover.proves, tuple(windows))
 
     def _step(self, segment: Segment, found: Corrected, index: int | None, proved: bool, windows: tuple[Window, ...]) -> Step:
         inertia = None
-        if index is not None and self.curve.symmetric(segment.b):
-            inertia = Inertia(index, 0, segment.b.size - 1 - index)
+        if proved and index is not None and not (windows and windows[-1].b.y is segment.b):
+            inertia = Inertia(index, 0, segment.b.size - 1 - index)  # shown for all solutions near by, the exact one among them
         point = Point(
             self.curve.equations, float(segment.b[-1]), segment.b[:-1].copy(), found.history, found.remaining,
             tangent=segment.tb, accepted="proved" if proved else "checked", known_inertia=inertia,

@@ -7,14 +7,14 @@ Four methods suffice. What more a model knows it tells by further members, each 
     lipschitz         bounds on the change of the derivatives  a step is proved; the index is that of the exact solution
     embedding         max |w|^2 <= a w.Jw + b w.w              longer steps are proved
     start             u from a guess, None for the natural one
-    nodes, shape      s, phi and x, z of one shape
+    nodes, shape      s, phi and x, z of one shape; or shape_at(u, lam) -> (s, phi, x, z)
     rounding          bound on v . (computed residual - exact)  the error of a point
     recipe            plain data that make it again             a saved branch can be read with its model
     vary              (name, lam) -> the same model             another parameter in the load's place
 
 lipschitz(u, lam) returns a function of (du, dlam) that bounds, for all |u' - u| <= du entrywise and |lam' - lam| <= dlam, the
 change of the Jacobian by a diagonal d, -d <= J' - J <= d, and that of d_lam entrywise; numbers or shape (n,), convex. The
-residual must be at most linear in lam. embedding(lam) returns (a, b).
+residual must be at most linear in lam. embedding(lam) returns (a, b) that hold for every load of at most the size |lam|.
 """
 
 from typing import Any, Protocol, runtime_checkable

@@ -4,7 +4,7 @@
     branch point   J V = 0 with F_lam in the range of J: other branches leave, one or more for each null vector
     of your own    lambda p: p.tip_angle - 1.0
 
-An event is passed to `follow` as one of `events`; what is not passed is not looked for.
+An event is passed to `follow` as one of `events`; what is not passed is not reported, and folds and functions not looked for.
 """
 
 from collections.abc import Callable, Iterator
@@ -50,9 +50,6 @@ class Event:
         times = f", multiplicity={self.multiplicity}" if self.multiplicity > 1 else ""
         why = f", reason={self.reason!r}" if self.reason else ""
         return f"Event({self.kind!r}, lam={self.lam:.12g}, error={self.error:.1e}{times}{why})"
-
-
-Finder = Callable[[Step, Locator], Iterator[Event]]
 
 
 class Singular:
@@ -112,7 +109,15 @@ class Zero:
             low, high, span = max(0.0, low - span), min(segment.length, high + span), 4 * span
         if exact(low) * exact(high) > 0:
             y = segment.at(low)
-            return _event(self.kind, y, float(abs(segment.b[-1] - segment.a[-1])), step, segment, reason="it only touches zero")
+            return _event(
+                self.kind,
+                y,
+                float(abs(segment.b[-1] - segment.a[-1])),
+                step,
+                segment,
+                reason="it was not found between its neighbours",
+                converged=False,
+            )
         sigma = root(exact, low, high)
         y = _solution(segment, locator, sigma)
         error = 4 * EPS * (abs(float(y[-1])) + abs(high)) * 4 + abs(value(y)) * _load_per_value(segment, value, sigma)
@@ -204,12 +209,13 @@ def _load_per_value(segment: Segment, value: Callable[[Array], float], sigma: fl
 
 def _event(
     kind: str, y: Array, error: float, step: Step, fence: Segment, crossing: Crossing | None = None, multiplicity: int = 0,
-    reason: str = "", null: Array | None = None,
+    reason: str = "", null: Array | None = None, converged: bool | None = None,
 ) -> Event:  # fmt: skip
     sigma = float(step.segment.row @ (y - step.segment.a))
+    converged = (crossing is None or crossing.converged) if converged is None else converged
     t = fence.derivative(float(fence.row @ (y - fence.a)))
     point = Point(step.point.equations, float(y[-1]), y[:-1].copy(), tangent=t, accepted=step.point.accepted)
     return Event(
-        kind, float(y[-1]), float(error), point, multiplicity, reason, crossing is None or crossing.converged,
+        kind, float(y[-1]), float(error), point, multiplicity, reason, converged,
         crossing.null.right if crossing is not None else null, sigma / step.segment.length, fence,
     )  # fmt: skip

@@ -1,10 +1,9 @@
 """Follow a branch to a load and keep what was met: the stream of points, stopped and stored.
 
-Stopping lives here, outside of the continuation: at `to`, on leaving `within`, on closing, back at the load it set out from, at
-`max_points`. The last event is always the end, and says why.
+Stopping lies outside of the continuation (`stops`); the last event is always the end, and says why.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -12,18 +11,12 @@ from typing import Any
 import numpy as np
 
 from rodlab.analysis.continuation import Step, Walk
-from rodlab.analysis.curve import Curve, Segment
+from rodlab.analysis.curve import Curve
 from rodlab.analysis.events import Event, Singular, Zero, branch_point, finders, fold
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
-from rodlab.analysis.touching import root
+from rodlab.analysis.stops import Stops, Within, at_load, inside_of, passages, piece
 from rodlab.numerics.arrays import Array, number, whole
-from rodlab.numerics.inertia import Inertia
-
-LOOKS = 8  # places of a step at which the limits are looked at
-FAR = 1e6  # loads beyond this many times those in question: the branch runs away
-
-Within = Mapping[str, tuple[float, float]] | Callable[[Point], Any] | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +58,7 @@ class Branch:
 
     @property
     def completed(self) -> bool:
-        """False when it ended because no further step could be shown, or for max_points."""
+        """False when it ended because no further step could be shown, or because it ran away."""
         return self.end.converged
 
     def extended(self, to: float, **options: Any) -> "Branch":
@@ -83,10 +76,10 @@ class Branch:
         lam = number("lam", lam)
         found = [p for p in self.points[:1] if p.lam == lam]
         for a, b in pairwise(self.points):
-            if b.lam == lam:
-                found.append(b)
-            elif (a.lam - lam) * (b.lam - lam) < 0:
-                found.append(_between(a, b, lam))
+            segment = piece(a, b)
+            inner = [part for part in passages(segment, lam) if part < 1]
+            found += [at_load(Curve(b.equations), segment, part, lam, b.accepted) for part in inner]
+            found += [b] if b.lam == lam else []
         return found
 
     def save(self, path: Any) -> Any:
@@ -94,47 +87,6 @@ class Branch:
         from rodlab.analysis.saved import save
 
         return save(self, path)
-
-
-def piece(a: Point, b: Point) -> Segment:
-    """The cubic between two neighbours on a branch; a first point without tangent gets that of the chord."""
-    ya, yb = np.append(a.u, a.lam), np.append(b.u, b.lam)
-    curve = Curve(b.equations)
-    chord = (yb - ya) / curve.norm(yb - ya)
-    ta, tb = (chord if p.tangent is None else p.tangent for p in (a, b))
-    return Segment(ya, np.asarray(ta), yb, np.asarray(tb), curve.row(chord))
-
-
-def _between(a: Point, b: Point, lam: float) -> Point:
-    """The point at a load between two neighbours."""
-    segment = piece(a, b)
-    return at_load(Curve(b.equations), segment, passages(segment, lam)[0], lam, b.accepted)
-
-
-def passages(segment: Segment, lam: float) -> list[float]:
-    """Parts of its length, above 0 and up to 1, at which the cubic passes a load."""
-    a, b = float(segment.a[-1]), float(segment.b[-1])
-    da, db = (segment.length * float(slope[-1]) for slope in segment.slopes)
-    hull = (a, a + da / 3, b - db / 3, b)
-    if not min(hull) <= lam <= max(hull):
-        return []
-    cubic = np.array([da + db - 2 * (b - a), 3 * (b - a) - 2 * da - db, da, a - lam])
-    roots = np.roots(cubic[:-1] if a == lam else cubic)
-    real = sorted(float(x.real) for x in roots if abs(x.imag) <= 1e-9 * (1 + abs(x)))
-    found = [x for x in real if 1e-12 < x < 1]
-    return [*found, 1.0] if b == lam else found
-
-
-def at_load(curve: Curve, segment: Segment, part: float, lam: float, accepted: str, known: Inertia | None = None) -> Point:
-    """The point of a segment exactly at a load, next to the part of its length; `NoConvergence` where it is not there."""
-    guess = segment.at(part * segment.length)
-    guess[-1] = lam
-    found = curve.correct(guess, np.append(np.zeros(guess.size - 1), 1.0))
-    if curve.norm(found.y - guess) > 0.1 * segment.length:
-        raise NoConvergence(f"the point at lam = {lam:g} was lost", found.history)
-    t = curve.tangent(found.y, segment.derivative(part * segment.length))
-    u = found.y[:-1].copy()
-    return Point(curve.equations, lam, u, found.history, found.remaining, t, accepted, known)
 
 
 def follow(
@@ -160,22 +112,22 @@ def follow(
     [('branch point', 0.38196601125, 1), ('branch point', 2.61803398875, 1), ('end', 3.0, 0)]
     """
     to, most = number("to", to), whole("max_points", max_points, least=1)
-    wanted, inside = finders(events), _inside(within)
+    wanted, inside = finders(events), inside_of(within)
     walk = Walk(p, step=step, toward=to, scale=scale)
     if to == p.lam and p.tangent is None:
         raise ValueError(f"to must differ from the load of p, which tells the direction; both are {to:g}")
     if not inside(p):
         raise ValueError(f"p must lie within the limits given; it does not: {p!r:.80}")
     points, found = [p], list[Event]()
-    stops = _Stops(walk, p, to, within, inside)
+    stops = Stops(walk, p, to, within, inside)
     while True:
         if len(points) >= most:
-            return _ended(points, found, f"max_points, {most}, reached", converged=False)
+            return _ended(points, found, f"max_points, {most}, reached")
         try:
             step_taken = walk.advance()
+            stop = stops.of(step_taken)
         except NoConvergence as failure:
             return _ended(points, found, str(failure), converged=False)
-        stop = stops.of(step_taken)
         limit = np.inf if stop is None else stop[0]
         found += _sorted(step_taken, walk, wanted, limit, len(points) - 1)
         points.append(step_taken.point if stop is None else stop[1])
@@ -202,116 +154,3 @@ def _ended(points: list[Point], events: list[Event], reason: str, *, converged: 
     last = points[-1]
     end = Event("end", last.lam, 0.0, last, reason=reason, converged=converged, where=len(points) - 1.0)
     return Branch(points, [*events, end])
-
-
-def _inside(within: Within) -> Callable[[Point], bool]:
-    if within is None:
-        return lambda _: True
-    if isinstance(within, Mapping):
-        for name, limits in within.items():
-            if not (isinstance(limits, (tuple, list)) and len(limits) == 2 and limits[0] < limits[1]):
-                raise ValueError(f"within must map measures to (low, high); {name} is mapped to {limits!r}")
-        return lambda p: all(low <= _measure(p, name) <= high for name, (low, high) in within.items())
-    if callable(within):
-        return lambda p: bool(within(p))
-    raise ValueError(f"within must be a function of a point or map measures to (low, high); it is {within!r:.60}")
-
-
-def _measure(p: Point, name: str) -> float:
-    if name == "lam":
-        return p.lam
-    try:
-        return p.measure(name)
-    except AttributeError as error:
-        raise ValueError(f"within must name measures of the model: {error}") from None
-
-
-class _Stops:
-    """Where a step ends the branch: the first of all reasons on it."""
-
-    def __init__(self, walk: Walk, p: Point, to: float, within: Within, inside: Callable[[Point], bool]) -> None:
-        self.walk, self.start, self.to, self.within, self.inside = walk, walk.here, to, within, inside
-        self.equations = p.equations
-        setting_out = float(walk.here.tangent[-1]) * (to - p.lam) > 0
-        self.loads = {to: f"lam = {to:g} reached"}
-        if setting_out:
-            self.loads[p.lam] = f"back at lam = {p.lam:g}"
-        self.steps = 0
-
-    def of(self, step: Step) -> tuple[float, Point, str] | None:
-        """(how far along the step, the last point, the reason), or None."""
-        self.steps += 1
-        found = [*self._at_loads(step), *self._closing(step), *self._leaving(step), *self._away(step)]
-        return min(found, key=lambda entry: entry[0]) if found else None
-
-    def _at_loads(self, step: Step) -> Iterator[tuple[float, Point, str]]:
-        segment, curve = step.segment, self.walk.curve
-        known = step.point.known_inertia if not step.windows else None
-        for load, reason in self.loads.items():
-            for part in passages(segment, load):
-                try:
-                    yield part, at_load(curve, segment, part, load, step.point.accepted, known), reason
-                    break
-                except NoConvergence:  # a fold in the same place; or only the cubic passes this load
-                    if (segment.a[-1] - load) * (segment.b[-1] - load) < 0:
-                        exact, y = self._by_arclength(segment, load)
-                        yield exact, self._point(segment, exact, step, y), reason
-                        break
-
-    def _by_arclength(self, segment: Segment, load: float) -> tuple[float, Array]:
-        """Where a load is passed, by solutions across the branch: good next to a fold too."""
-
-        def off(x: float) -> float:
-            return float(self.walk.curve.correct(segment.at(x * segment.length), segment.row).y[-1]) - load
-
-        part = root(off, 0.0, 1.0)
-        y = self.walk.curve.correct(segment.at(part * segment.length), segment.row).y
-        y[-1] = load
-        return part, y
-
-    def _closing(self, step: Step) -> Iterator[tuple[float, Point, str]]:
-        segment, curve, start = step.segment, self.walk.curve, self.start
-        sigma = float(segment.row @ (start.y - segment.a))
-        if self.steps < 3 or not 0 < sigma <= segment.length or curve.norm(segment.at(sigma) - start.y) > 0.05 * segment.length:
-            return
-        try:
-            here = self.walk.locator.place(segment, sigma)
-        except NoConvergence:
-            return
-        size = max(curve.norm(start.y), 1e-3)
-        if curve.norm(here.y - start.y) <= 1e-8 * size and curve.dot(here.tangent, start.tangent) > 0.9:
-            y = start.y
-            point = Point(self.equations, float(y[-1]), y[:-1].copy(), tangent=here.tangent, accepted=step.point.accepted)
-            yield sigma / segment.length, point, "closed: back at its first point"
-
-    def _leaving(self, step: Step) -> Iterator[tuple[float, Point, str]]:
-        if self.within is None:
-            return
-        segment = step.segment
-        parts = [float(x) for x in np.linspace(0.0, 1.0, LOOKS + 1)]
-        out = next((x for x in parts[1:-1] if not self.inside(self._guessed(segment, x))), None)
-        if out is None and self.inside(step.point):
-            return
-        high = 1.0 if out is None else out
-        low = high - 1 / LOOKS
-        for _ in range(40):
-            middle = (low + high) / 2
-            low, high = (middle, high) if self.inside(self._point(segment, middle, step)) else (low, middle)
-        yield low, self._point(segment, low, step), "left the limits given"
-
-    def _away(self, step: Step) -> Iterator[tuple[float, Point, str]]:
-        if abs(step.point.lam) > FAR * max(abs(self.to), abs(float(self.start.y[-1])), self.walk.curve.scale):
-            yield 1.0, step.point, f"it runs away from {self.to:g}: lam = {step.point.lam:.3g}"
-
-    def _guessed(self, segment: Segment, part: float) -> Point:
-        y = segment.at(part * segment.length)
-        return Point(self.equations, float(y[-1]), y[:-1])
-
-    def _point(self, segment: Segment, part: float, step: Step, y: Array | None = None) -> Point:
-        found = self.walk.curve.correct(segment.at(part * segment.length), segment.row)
-        y = found.y if y is None else y
-        t = self.walk.curve.tangent(y, segment.derivative(part * segment.length))
-        return Point(
-            self.equations, float(y[-1]), y[:-1].copy(), found.history, found.remaining,
-            tangent=t, accepted=step.point.accepted,
-        )  # fmt: skip

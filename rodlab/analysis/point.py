@@ -90,6 +90,8 @@ class Point:
 
     @cached_property
     def _shape(self) -> Shape:
+        if hasattr(self.equations, "shape_at"):
+            return Shape(*self.equations.shape_at(self.u, self.lam))
         if not hasattr(self.equations, "nodes") or not hasattr(self.equations, "shape"):
             raise AttributeError(f"{type(self.equations).__name__} has no shape: it defines no nodes(u) and shape(u)")
         return Shape(*self.equations.nodes(self.u), *self.equations.shape(self.u))

@@ -10,8 +10,8 @@ tube of radius r around it. Two ways:
     fold     the same for [J f; f^T 0], the curve as a function of f . u: |eigenvalues of J on the plane normal to f| >= kappa.
              The curve may turn; [J f] keeps its full rank, so that there is no branch point.
 
-Exact but for rounding in the norms, for which every bound has a margin. Without `lipschitz` the same test with the changes
-seen at the ends in its place is a check and no proof.
+A proof in exact arithmetic: rounding is covered where inertia is counted, by margins in the norms, and not in the residual.
+Without `lipschitz` the same test with the changes seen at the ends in its place is a check and no proof.
 """
 
 import math
@@ -26,6 +26,7 @@ from rodlab.numerics.bordered import OneBorder
 from rodlab.numerics.factor import factor, index_within, largest_change, shifted
 
 MARGIN = 1.01  # on every bound, for rounding in computing it
+EXTENDED = 1.1  # a fold is shown for a chord this much longer, for what lies between its ends and its neighbours'
 WIDEST = 0.5  # radius of a tube
 FINEST = 2.0**-5  # the smallest part of a segment that is tried
 
@@ -40,10 +41,12 @@ class Span:
     stop: float
     kind: Kind
     index: int | None
+    reach: float = math.inf  # how far, in any unknown, the solution may be from the ends of the chord
+    turn: float = 0.0  # of a fold: how much of the chord a change of the solution by one moves its plane
 
 
 class _Chord(NamedTuple):
-    """A chord: its ends, the residuals there, its middle, and half of its extent."""
+    """A chord: its ends, the larger residual there, its middle, half of its extent, and the tube around it."""
 
     a: Array
     b: Array
@@ -53,7 +56,7 @@ class _Chord(NamedTuple):
     dlam: float
     r: float  # radius of the tube in any one unknown, and in the load
     r_lam: float
-    gate: float  # radius where two tubes meet
+    gate: float  # the same where two tubes meet
     bound: Any  # what `lipschitz` knows at the middle
 
     @property
@@ -75,17 +78,15 @@ class Prover:
 
     def spans(self, segment: Segment, finest: float = FINEST) -> list[Span]:
         """The segment in spans, each regular, a fold, or open: not shown with parts of the size `finest`."""
-        if self.proves and not np.isfinite(np.max(self.lipschitz(segment.a[:-1], float(segment.a[-1]))(1.0, 1.0)[0])):
-            self.lipschitz = None
         length = segment.length
         if not self.curve.has_index(segment.a):
             return [Span(0.0, length, "open", None)]
+        if self.proves and not self._applies(segment.a):
+            self.lipschitz = None
         found: list[Span] = []
         waiting = [(0.0, 1.0)]
-        gate = float(np.abs(segment.b - segment.a)[:-1].max(initial=0.0)) / 32 + 1e-9
-        ends: dict[float, tuple[Array, float]] = {0.0: (segment.a, 0.0), 1.0: (segment.b, 0.0)}
-        for x in (0.0, 1.0):
-            ends[x] = (ends[x][0], self._residual(ends[x][0]))
+        gate = float(np.abs(segment.b - segment.a)[:-1].max(initial=0.0)) / 64 + 1e-9
+        ends = {x: (y, self._residual(y)) for x, y in ((0.0, segment.a), (1.0, segment.b))}
         while waiting:
             start, stop = waiting.pop()
             span = self._shown(self._chord(ends[start], ends[stop], gate), start * length, stop * length)
@@ -96,20 +97,31 @@ class Prover:
                 waiting += [(middle, stop), (start, middle)]
                 continue
             found.append(span)
-        return _merged(found)
+        return _merged(_joined(found))
+
+    def _applies(self, y: Array) -> bool:
+        """True when the bounds are finite and the index is that of the Jacobian itself."""
+        d, _ = self.lipschitz(y[:-1], float(y[-1]))(0.0, 0.0)
+        own = getattr(self.curve.equations, "second_variation", None)
+        same = own is None or largest_change(self.curve.second_variation(y), self.curve.jacobian(y)) == 0
+        return bool(np.isfinite(np.max(d))) and same and self.curve.symmetric(y)
 
     def _shown(self, chord: _Chord, start: float, stop: float) -> Span:
-        index = self._regular(chord)
-        if index is not None:
-            return Span(start, stop, "regular", index)
-        return Span(start, stop, "fold" if self.proves and self._fold(chord) else "open", None)
+        if not self.proves:
+            index = self._regular_as_seen(chord)
+            return Span(start, stop, "open" if index is None else "regular", index, 0.0)
+        regular = self._regular(chord)
+        if regular is not None:
+            return Span(start, stop, "regular", *regular)
+        fold = self._fold(chord)
+        return Span(start, stop, "open", None) if fold is None else Span(start, stop, "fold", None, *fold)
 
     def _chord(self, a: tuple[Array, float], b: tuple[Array, float], gate: float) -> _Chord:
         half, middle = (b[0] - a[0]) / 2, (a[0] + b[0]) / 2
         du, dlam = np.abs(half[:-1]), abs(float(half[-1]))
-        r = max(float(du.max(initial=0.0)) / 8, gate)
+        r = max(float(du.max(initial=0.0)) / 8, 2 * gate)
         bound = self.lipschitz(middle[:-1], float(middle[-1])) if self.proves else None
-        return _Chord(a[0], b[0], max(a[1], b[1]), middle, du, dlam, r, dlam / 4 + gate, gate / 2, bound)
+        return _Chord(a[0], b[0], max(a[1], b[1]), middle, du, dlam, r, dlam / 4 + gate, gate, bound)
 
     def _residual(self, y: Array) -> float:
         F = self.curve.residual(y)
@@ -118,14 +130,16 @@ class Prover:
 
     # --- regular -----------------------------------------------------------------------------------------------
 
-    def _regular(self, chord: _Chord) -> int | None:
-        """The index, constant in the tube, or None."""
-        matrix = self.curve.second_variation(chord.middle)
-        if not self.proves:
-            return self._regular_as_seen(chord, matrix)
+    def _regular(self, chord: _Chord) -> tuple[int, float] | None:
+        """The index, constant in the tube, and how far the solution may be from the ends; or None."""
         rho, r = self._tube(chord)
+        d, _ = self._bounds(chord, r)
         kappa = max(self._held(chord, rho, r), self._held(chord, chord.residual, chord.gate))
-        return index_within(matrix, MARGIN * self._bounds(chord, r)[0] + kappa) if math.isfinite(kappa) else None
+        if not (math.isfinite(kappa) and np.isfinite(np.max(d))):
+            return None
+        index = index_within(self.curve.jacobian(chord.middle), MARGIN * d + kappa)
+        a, b = self._embedding(chord)
+        return None if index is None else (index, chord.residual * math.sqrt(a / kappa + b / kappa**2) if kappa else 0.0)
 
     def _tube(self, chord: _Chord) -> tuple[float, float]:
         """Bound rho on F along the chord, and the radius r for which little is asked of J: rho / r + the change of J with r."""
@@ -141,28 +155,37 @@ class Prover:
         a, b = self._embedding(chord)
         return MARGIN * rho * (rho * a + math.sqrt(rho * rho * a * a + 4 * r * r * b)) / (2 * r * r)
 
-    def _regular_as_seen(self, chord: _Chord, matrix: Any) -> int | None:
+    def _regular_as_seen(self, chord: _Chord) -> int | None:
+        """The same with the changes seen at the ends for bounds: a check."""
+        matrix = self.curve.second_variation(chord.middle)
         change = max(largest_change(self.curve.second_variation(y), matrix) for y in (chord.a, chord.b))
         return index_within(matrix, 2 * change) if math.isfinite(change) else None
 
     # --- fold --------------------------------------------------------------------------------------------------
 
-    def _fold(self, chord: _Chord) -> bool:
+    def _fold(self, chord: _Chord) -> tuple[float, float] | None:
+        """How far the solution may be from the ends, and how much that moves the plane; None where nothing is shown."""
         curve, step = self.curve, chord.step
         f = curve.d_lam(chord.middle)
-        if not f.any() or float(f @ step[:-1]) == 0:
-            return False
+        along = abs(float(f @ step[:-1]))
+        if along == 0:
+            return None
         J = curve.jacobian(chord.middle)
         rho, r = self._tube(chord)
         chord = chord._replace(r=r, r_lam=max(chord.r_lam, chord.dlam))
-        d, c = self._bounds(chord, chord.r, chord.r_lam)
+        d, c = self._bounds(chord._replace(du=EXTENDED * chord.du, dlam=EXTENDED * chord.dlam), r, chord.r_lam)
         with np.errstate(all="ignore"):
-            z = OneBorder(factor(J), f, f, 0.0).solve(np.append(np.zeros_like(f), 1.0))[:-1]
-        kappa = self._turned(chord, z, rho, d, c) if np.isfinite(z).all() else None
-        return kappa is not None and self._compressed(J, f, MARGIN * d + kappa)
+            z = OneBorder(factor(J), f, f, 0.0).solve(np.append(np.zeros_like(f), 1.0))
+            left = J @ z[:-1] + z[-1] * f
+        if not (np.isfinite(z).all() and np.isfinite(np.max(d))) or abs(left).max() > 1e-6 * abs(z[-1]) * abs(f).max():
+            return None
+        turned = self._turned(chord, z[:-1], rho, d, c)
+        if turned is None or not self._compressed(J, f, MARGIN * d + turned[0]):
+            return None
+        return turned[1], float(np.abs(f).sum()) / along
 
-    def _turned(self, chord: _Chord, z: Array, rho: float, d: Any, c: Any) -> float | None:
-        """kappa on the plane for which solutions stay within the tube: by doubling it, until the bounds close."""
+    def _turned(self, chord: _Chord, z: Array, rho: float, d: Any, c: Any) -> tuple[float, float] | None:
+        """kappa on the plane for which solutions stay within the tube, by doubling it until the bounds close; their distance."""
         a, b = self._embedding(chord)
         worst, turn = float(np.max(d)), _length(c, z.size)
         size = MARGIN * math.sqrt(float(z @ z))
@@ -170,14 +193,12 @@ class Prover:
         kappa = max(worst / 8, 1e-300)
         for _ in range(12):
             hold = 1 - size * turn - mixed * turn / kappa
-
-            def within(rho: float, r: float, r_lam: float, hold: float = hold, kappa: float = kappa) -> bool:
-                e_lam = rho * (size + mixed / kappa) / hold
-                push = rho + turn * e_lam
-                return e_lam < r_lam and (a * kappa + b) * (push / kappa) ** 2 < r * r
-
-            if hold > 0 and within(rho, chord.r, chord.r_lam) and within(chord.residual, chord.gate, chord.gate):
-                return MARGIN * kappa
+            if hold > 0:
+                in_load = (size + mixed / kappa) / hold  # per unit of residual
+                in_angle = (1 + turn * in_load) / kappa * math.sqrt(a * kappa + b)
+                inside = rho * in_load < chord.r_lam and rho * in_angle < chord.r
+                if inside and chord.residual * max(in_load, in_angle) < chord.gate:
+                    return MARGIN * kappa, chord.residual * in_angle
             kappa *= 2
         return None
 
@@ -190,8 +211,9 @@ class Prover:
             if index is None:
                 return False
             with np.errstate(all="ignore"):
-                schur = -float(f @ factor(moved).solve(f))
-            if not math.isfinite(schur) or schur == 0:
+                x = factor(moved).solve(f)
+                schur, size = -float(f @ x), float(np.abs(f) @ np.abs(x))
+            if not abs(schur) > 1e-6 * size:  # a sign that rounding could have made
                 return False
             counts.append(index + int(schur < 0) - 1)
         return counts[0] == counts[1]
@@ -223,6 +245,16 @@ def _bend(chord: _Chord, d: Any, c: Any) -> float:
 def _length(c: Any, n: int) -> float:
     """Euclidean norm of bounds on n entries, one for all or one each."""
     return math.sqrt(float(c @ c) if np.ndim(c) else n * float(c) ** 2)
+
+
+def _joined(spans: list[Span]) -> list[Span]:
+    """Folds whose plane the solution of a neighbour may miss are open: there the curve could pass between two tubes."""
+    joined = list(spans)
+    for i, span in enumerate(spans):
+        beside = [other.reach for other in (*spans[max(i - 1, 0) : i], *spans[i + 1 : i + 2]) if other.kind != "open"]
+        if span.kind == "fold" and max([span.reach, *beside]) * span.turn > (EXTENDED - 1) / 2:
+            joined[i] = Span(span.start, span.stop, "open", None)
+    return joined
 
 
 def _merged(spans: list[Span]) -> list[Span]:

@@ -45,9 +45,7 @@ class Recorded:
 
 def save(branch: Branch, path: Any) -> Path:
     """Write a branch to a .json or .npz file, whole or not at all; `ValueError` when it cannot be written."""
-    path = Path(path)
-    if path.suffix not in SUFFIXES:
-        raise ValueError(f"path must end in .json or .npz; it is {str(path)!r}")
+    path = place(path)
     record, arrays = _record(branch)
     if path.suffix == ".json":
         whole = {**record, "arrays": {name: array.tolist() for name, array in arrays.items()}}
@@ -62,7 +60,7 @@ def load(path: Any, model: Equations | None, rebuild: Callable[[Mapping[str, Any
 
     Raises `ValueError`, in one sentence, for a file that is not a whole branch, or whose points do not solve the model.
     """
-    record, arrays = _opened(Path(path))
+    record, arrays = _opened(place(path))
     try:
         if record["schema"] != SCHEMA:
             raise ValueError(f"{path} has schema {record['schema']}; this rodlab reads {SCHEMA}")
@@ -78,6 +76,14 @@ def load(path: Any, model: Equations | None, rebuild: Callable[[Mapping[str, Any
     if model is not None:
         _solves(model, points, path)
     return Branch(points, events)
+
+
+def place(path: Any) -> Path:
+    """The path of a branch's file; `ValueError` unless it ends in .json or .npz."""
+    path = Path(path)
+    if path.suffix not in SUFFIXES:
+        raise ValueError(f"path must end in .json or .npz; it is {str(path)!r}")
+    return path
 
 
 # --- out ---------------------------------------------------------------------------------------------------------
@@ -118,22 +124,21 @@ def _record(branch: Branch) -> tuple[dict[str, Any], dict[str, Array]]:
 def _said(p: Point) -> dict[str, Any]:
     known = p.inertia if not isinstance(p.equations, Recorded) else p.known_inertia
     return {
-        "lam": p.lam, "accepted": p.accepted, "remaining": p.remaining, "tangent": p.tangent is not None,
+        "lam": p.lam, "accepted": p.accepted, "remaining": float(np.nan_to_num(p.remaining)), "tangent": p.tangent is not None,
         "inertia": None if known is None else list(known), "measures": _measures(p),
     }  # fmt: skip
 
 
 def _measures(p: Point) -> dict[str, float]:
     names = p.recorded if isinstance(p.equations, Recorded) else getattr(p.equations, "measures", {})
-    return {name: p.measure(name) for name in names or {}}
+    known = {name: p.measure(name) for name in names or {}}
+    return {name: value for name, value in known.items() if np.isfinite(value)}
 
 
 # --- in ----------------------------------------------------------------------------------------------------------
 
 
 def _opened(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
-    if path.suffix not in SUFFIXES:
-        raise ValueError(f"path must end in .json or .npz; it is {str(path)!r}")
     try:
         if path.suffix == ".json":
             record = json.loads(path.read_text(encoding="utf-8"))

@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from rodlab.analysis.crossings import Crossing, Locator, Place
-from rodlab.analysis.curve import Segment
+from rodlab.analysis.curve import Curve, Segment
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.proof import Prover, Span
-from rodlab.analysis.touching import touching
+from rodlab.analysis.touching import outside, touching
 
+PARTS = 2  # how often a step that stays open is halved, the solutions half-way computed
 FINE = 2.0**-3  # the smallest part of such a half that is tried
-PARTS = 2  # times a part that stays open is halved, the solution half-way computed
 HALFWAY = 2e-3  # how far half-way from the cubic, as a part of its length, where nothing better can be shown
 TINY = 1e-5  # parts shorter than this, relative to the point, may stay open: rounding hides what is there
 
@@ -59,11 +59,21 @@ class Inspector:
     def __init__(self, prover: Prover, locator: Locator) -> None:
         self.prover, self.locator, self.curve = prover, locator, locator.curve
 
-    def windows(self, segment: Segment, a: Place, b: Place, spans: list[Span], patience: Patience) -> Iterator[Window]:
-        """The windows of a step, in order; with no patience left what cannot be shown is checked.
+    def explain(self, segment: Segment, a: Place, b: Place, spans: list[Span], patience: Patience) -> tuple[list[Window], bool]:
+        """The windows of a step, in order, and whether all of it was shown; with no patience what cannot be shown is checked.
 
         Raises `NoConvergence` where a part cannot be explained.
         """
+        open_somewhere = any(span.kind == "open" for span in spans)
+        counted = a.index is not None and b.index is not None and self.curve.has_index(a.y)
+        if open_somewhere and counted and all(span.index in (None, a.index) for span in spans) and a.index == b.index:
+            windows = list(self._part(a, b, patience))  # from its ends again, that tubes may meet at solutions
+            return windows, all(window.fold for window in windows)
+        windows = list(self._grouped(segment, a, b, spans, patience))
+        _orientation(a, b, windows, self.curve)
+        return windows, not open_somewhere
+
+    def _grouped(self, segment: Segment, a: Place, b: Place, spans: list[Span], patience: Patience) -> Iterator[Window]:
         for group in _groups(spans):
             left = a if group[0] is spans[0] else self._gate(segment, group[0].start, spans)
             right = b if group[-1] is spans[-1] else self._gate(segment, group[-1].stop, spans)
@@ -132,7 +142,10 @@ class Inspector:
             raise NoConvergence(f"the index is {middle.index} half-way between two places where it is {left.index}", ())
         kinds: set[str] = set()
         for a, b in ((left, middle), (middle, right)):
-            spans = self.prover.spans(self.locator.segment(a, b), FINE)
+            piece = self.locator.segment(a, b)
+            spans = self.prover.spans(piece, FINE)
+            if all(span.kind == "regular" for span in spans) and float(a.tangent[-1]) * float(b.tangent[-1]) < 0:
+                raise NoConvergence("the load turns on a part without a fold", ())
             if any(span.index not in (None, left.index) for span in spans):
                 raise NoConvergence("the index changes and changes back within a step", ())
             shown = {str(span.kind) for span in spans}
@@ -161,6 +174,21 @@ class Inspector:
             raise NoConvergence(f"half-way the branch is {off / abs(piece.length):.1g} of the length beside its cubic", ())
         if left.index is not None and middle.index is not None and middle.index != left.index:
             raise NoConvergence("the index half-way is another", ())
+
+
+def _orientation(a: Place, b: Place, windows: list[Window], curve: Curve) -> None:
+    """Raise where the index and the way of the load contradict each other.
+
+    dlam/dsigma is det J over the determinant of the bordered matrix, which changes its sign at branch points alone, by as
+    many null vectors as F_lam leaves: the load turns where the index changes, and nowhere else.
+    """
+    crossings = [crossing for window in windows for crossing in window.crossings]
+    if a.index is None or b.index is None or any(c.touches or not c.converged for c in crossings):
+        return
+    passed = sum(crossing.multiplicity - outside(curve, crossing) for crossing in crossings)
+    turned = float(a.tangent[-1]) * float(b.tangent[-1]) < 0
+    if (a.index + b.index + passed + turned) % 2:
+        raise NoConvergence("the load turns where no eigenvalue crosses zero, or goes on where one does", ())
 
 
 def _groups(spans: list[Span]) -> Iterator[list[Span]]:

@@ -3,8 +3,8 @@
 The algebraic bifurcation equations are solved near the point, on the sphere |xi| = rho in the space of its null vectors and,
 where the followed branch itself lies there, along the load as well. Roots on the followed branch are dropped; every other
 one is corrected to a solution of the full equations and compared with the followed branch at the same place: a start that
-has not left it is no start. Where the eigenvalues all cross one way, the count is proved complete by Poincare and Hopf's theorem:
-the signs of the roots sum to the Euler characteristic of the sphere.
+has not left it is no start. Where the eigenvalues all cross one way, the count is checked by Poincare and Hopf's theorem: the
+signs of the roots sum to the Euler characteristic of the sphere. And the count must be the same nearer by.
 """
 
 from collections.abc import Iterator

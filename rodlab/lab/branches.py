@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from rodlab.analysis.equilibrium import equilibrium
 from rodlab.analysis.events import branch_point
 from rodlab.analysis.follow import Branch, follow
+from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.analysis.switching import switch
 from rodlab.mechanics.buckling import buckling_loads
@@ -46,8 +47,12 @@ def trivial(strut: Strut, modes: int) -> Branch:
 
 def mode_starts(strut: Strut, mode: int) -> list[Point]:
     """The two starts where a mode leaves the straight branch, phi'(0) > 0 first."""
-    points = [e for e in trivial(strut, mode).events if e.kind == "branch point"]
-    return switch(points[mode - 1])
+    load = float(buckling_loads(strut, [mode])[0])
+    branch = trivial(strut, mode)
+    own = [e for e in branch.events if e.kind == "branch point" and abs(e.lam - load) <= e.error + 1e-9 * load]
+    if not own:
+        raise NoConvergence(f"the branch point of mode {mode} at {load:.9g} was not met: {branch.reason}", ())
+    return switch(own[0])
 
 
 def mode_branch(strut: Strut, mode: int, to: float) -> Branch:

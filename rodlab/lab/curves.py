@@ -6,8 +6,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from rodlab.analysis.follow import Branch, piece
+from rodlab.analysis.follow import Branch
 from rodlab.analysis.point import Point
+from rodlab.analysis.stops import piece
 from rodlab.numerics.arrays import Array
 
 FINE = 12  # parts of a step that are drawn
@@ -35,7 +36,8 @@ def pieces(branch: Branch, measure: str) -> list[Piece]:
     for start, stop in pairwise(cuts):
         if stop - start < 1e-9:
             continue
-        index = point_at(branch, (start + stop) / 2).index
+        middle = point_at(branch, (start + stop) / 2)
+        index = middle.index if middle.index_verified else None
         lam, value = (np.array(column) for column in zip(*_samples(branch, measure, start, stop), strict=True))
         if found and found[-1].index == index:
             before = found.pop()

@@ -25,6 +25,8 @@ def followed(
         return strut, follow(p, to, **options)
     if guess is not None:
         raise ValueError(f"guess must not be given with mode, which starts from its branch point; it is {guess!r}")
+    if start != 0:
+        raise ValueError(f"from must not be given with mode, which starts from its branch point; it is {start:g}")
     mode_numbers(strut, [mode])
     load = float(buckling_loads(strut, [mode])[0])
     if not to > load:

@@ -24,6 +24,7 @@ from rodlab.analysis.events import branch_point, fold
 from rodlab.analysis.follow import Branch, follow
 from rodlab.analysis.point import Point
 from rodlab.analysis.switching import switch
+from rodlab.lab.answers import MEASURES
 from rodlab.lab.branches import Shown
 from rodlab.mechanics.expression import Expression
 from rodlab.mechanics.recipe import build
@@ -123,11 +124,11 @@ def _options(options: Mapping[str, Any], watch: Callable[[Point], Any] | None) -
         within = options["within"]
         if not isinstance(within, dict):
             raise ValueError(f"within must be a table of measures and their limits; it is {within!r:.60}")
-        given["within"] = {measure: tuple(limits) for measure, limits in within.items()}
+        given["within"] = within
     if "events" in options:
-        unknown = [event for event in options["events"] if event not in EVENTS]
-        if unknown:
-            raise ValueError(f"events must be among {', '.join(map(repr, EVENTS))}; one is {unknown[0]!r}")
+        names = options["events"]
+        if not isinstance(names, list) or not all(name in EVENTS for name in names):
+            raise ValueError(f"events must be a list of {', '.join(map(repr, EVENTS))}; it is {names!r:.60}")
         given["events"] = tuple(EVENTS[event] for event in options["events"])
     return whole("switch", options.get("switch", 0), least=0), number("to", options["to"]), given
 
@@ -142,6 +143,6 @@ def _guess(options: Mapping[str, Any]) -> Any:
 
 
 def _drawn(path: Path, draw: Any) -> Mapping[str, Any]:
-    if not isinstance(draw, dict) or set(draw) - {"y"}:
-        raise ValueError(f"{path}: [draw] takes y, the name of a measure; it is {draw!r:.60}")
+    if not isinstance(draw, dict) or set(draw) - {"y"} or draw.get("y", "tip_angle") not in MEASURES:
+        raise ValueError(f"{path}: [draw] takes y, one of {', '.join(MEASURES)}; it is {draw!r:.60}")
     return draw

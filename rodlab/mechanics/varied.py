@@ -41,9 +41,11 @@ class VariedStrut:
             raise ValueError(f"{name} cannot be followed where a term is quadratic in the place (a foundation)")
         self.strut, self.name, self.lam = strut, name, number("lam", lam)
         given = next((t.parameters[name] for t in strut.terms if name in t.parameters), strut.arguments.get(name))
-        self.scalar = given is None or (not isinstance(given, str) and not callable(given) and np.ndim(given) == 0)
+        self.scalar = not isinstance(given, str) and not callable(given) and np.ndim(given) == 0
+        if given is None:
+            raise ValueError(f"{name} must be given to be followed; this strut has none. Rest angles of one: beta=[1, 0, ...]")
         self._profile = given
-        self.value = float(0.0 if given is None else given) if self.scalar else 1.0
+        self.value = float(given) if self.scalar else 1.0
         self.unit = self._unit()
         self._last: tuple[float, Strut] | None = None
 
@@ -60,12 +62,13 @@ class VariedStrut:
         """The joints' array (or the term's parameter) at the value 1."""
         if self.name in CLAMP:
             return 1.0
-        one = self.strut.replace(**{self.name: 1.0}) if self.scalar and self._profile is not None else self.strut
+        one = self.strut.replace(**{self.name: 1.0}) if self.scalar else self.strut
         array = ARRAY.get(self.name, self.name)
         return one.parameters[array]
 
     def at(self, value: float) -> "Strut":
         """The strut with this value of the parameter."""
+        value = number("value", value)
         if self.scalar:
             return self.strut.replace(**{self.name: value})
         if value == 1:
@@ -162,10 +165,7 @@ class VariedStrut:
         """As the strut's."""
         return self.strut.start(guess)
 
-    def nodes(self, u: Array) -> tuple[Array, Array]:
-        """As the strut's; the clamp's angle is that of the strut as given."""
-        return self.strut.nodes(u)
-
-    def shape(self, u: Array) -> tuple[Array, Array]:
-        """As the strut's."""
-        return self.strut.shape(u)
+    def shape_at(self, u: Array, value: float) -> tuple[Array, Array, Array, Array]:
+        """s, phi and x, z of the shape at a value of the parameter, which may be the clamp's angle."""
+        strut = self._at(value)
+        return *strut.nodes(u), *strut.shape(u)
