@@ -65,7 +65,7 @@ def branch(
     >>> from rodlab.analysis.equilibrium import equilibrium
     >>> from rodlab.mechanics.strut import Strut
     >>> [round(q.lam, 3) for q in islice(branch(equilibrium(Strut(n=10, u_hat=0.1), 0.0), 0.5), 4)]
-    [0.5, 0.999, 1.494, 1.894]
+    [0.5, 0.807, 1.189, 1.552]
     """
     walk = Walk(p, step=number("step", step, above=0.0), toward=toward, natural=natural, scale=scale)
     return _points(walk)
@@ -168,7 +168,7 @@ class Walk:
         curve, off = self.curve, y - guess
         moved, here = y - self.here.y, self.here.y.copy()
         off[-1] = moved[-1] = here[-1] = 0.0
-        unknowns = curve.norm(off) / (2 * curve.norm(moved) + 0.1 * curve.norm(here) + 1e-6 * s)
+        unknowns = curve.norm(off) / (2 * curve.norm(moved) + 0.1 * curve.norm(here) + 0.1 * min(s, 1.0))
         return max(curve.norm(y - guess) / s, unknowns)
 
     def _predicted(self, s: float, row: Array) -> Array:

@@ -80,10 +80,10 @@ def load(path: Any, model: Equations | None, rebuild: Callable[[Mapping[str, Any
 
 def place(path: Any) -> Path:
     """The path of a branch's file; `ValueError` unless it ends in .json or .npz."""
-    path = Path(path)
-    if path.suffix not in SUFFIXES:
+    known = Path(path)
+    if known.suffix not in SUFFIXES:
         raise ValueError(f"path must end in .json or .npz; it is {str(path)!r}")
-    return path
+    return known
 
 
 # --- out ---------------------------------------------------------------------------------------------------------

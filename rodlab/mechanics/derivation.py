@@ -6,14 +6,18 @@ compares the two. In a notebook it shows as LaTeX, in a terminal as text.
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import sympy
 from sympy import Expr, Matrix, Rational, Symbol, cos, sin
 
 from rodlab.mechanics.derive import derive, tidy
 from rodlab.mechanics.terms import Term
 from rodlab.numerics.arrays import whole
+
+if TYPE_CHECKING:
+    from rodlab.mechanics.strut import Strut
 
 MOST = 12
 
@@ -79,6 +83,15 @@ def derivation(
         V += one.energy.subs(names, simultaneous=True)
     gradient = Matrix([sympy.Add(*map(tidy, sympy.Add.make_args(V.diff(p)))) for p in phi])
     return Derivation(phi, lam, V, gradient, gradient.jacobian(phi).applyfunc(sympy.expand), one.source)
+
+
+def derivation_of(strut: "Strut", n: int) -> Derivation:
+    """The same for a strut: its terms, and which of its parameters are one number for all joints."""
+    j = strut.joints
+    own = j.weights is not None and not ((j.w[:-1] == 1).all() and j.last_weight == 0.5)
+    scalars = {name for name, given in strut.parameters.items() if np.ndim(given) == 0}
+    weights = None if j.weights is None else "own" if own else "trapezoid"
+    return derivation(strut.loaded, n, weights=weights, scalars=scalars, clamped_upright=j.phi0 == 0)
 
 
 def _numbered(symbol: Symbol, i: int) -> Symbol:

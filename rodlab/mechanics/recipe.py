@@ -6,6 +6,7 @@
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -55,6 +56,33 @@ def recipe_of(arguments: Mapping[str, Any], terms: Sequence[Term]) -> dict[str, 
     if any(callable(value) for value in values) or any(term.energy is not None for term in terms):
         return None
     return {**recipe, "terms": said} if said else recipe
+
+
+def changed(arguments: Mapping[str, Any], terms: Sequence[Term], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """A strut's arguments with some of them, or of its terms' parameters, replaced."""
+    given, own = dict(arguments), list(terms)
+    for name, value in changes.items():
+        owner = next((i for i, term in enumerate(own) if name in term.parameters), None)
+        if owner is not None:
+            own[owner] = replace(own[owner], parameters={**own[owner].parameters, name: value})
+        elif name in given:
+            given[name] = value
+        else:
+            known = [*given, *(p for term in own for p in term.parameters)]
+            raise ValueError(f"a strut has no argument {name}; it has {', '.join(known)}")
+    if "terms" not in changes:
+        given["terms"] = tuple(own)
+    return given
+
+
+def said_of(arguments: Mapping[str, Any], n: int, terms: Sequence[Term]) -> str:
+    """A strut's arguments as its repr says them."""
+    if "n" not in arguments:
+        said = f"n={n}, from joints"
+    else:
+        said = ", ".join(f"{name}={arguments[name]!r}" for name in ("n", "K", "u_hat", "rule"))
+        said += f", phi0={arguments['phi0']!r}" if arguments["phi0"] else ""
+    return said + (f", terms={tuple(terms)!r}" if terms else "")
 
 
 def kept(arguments: Mapping[str, Any]) -> dict[str, Any]:

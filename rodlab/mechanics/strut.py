@@ -9,7 +9,6 @@ Cost of every method: O(n), but for the Hessian with a term quadratic in the pla
 
 from collections.abc import Callable, Sequence
 from copy import copy
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +21,7 @@ from rodlab.mechanics.joints import Joints
 from rodlab.mechanics.kernels import Kernel, kernel
 from rodlab.mechanics.places import Places
 from rodlab.mechanics.profile import Profile
-from rodlab.mechanics.recipe import kept, recipe_of
+from rodlab.mechanics.recipe import changed, kept, recipe_of, said_of
 from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term, checked
 from rodlab.numerics.arrays import EPS, Array, number, vector
 from rodlab.numerics.difference import DifferenceForm, Springs
@@ -95,19 +94,8 @@ class Strut:
         >>> Strut(n=3).replace(u_hat=0.5, rule="trapezoid")
         Strut(n=3, K=1.0, u_hat=0.5, rule='trapezoid')
         """
-        given, terms = dict(self.arguments), list(self.terms)
-        for name, value in changes.items():
-            owner = next((i for i, term in enumerate(terms) if name in term.parameters), None)
-            if owner is not None:
-                terms[owner] = replace(terms[owner], parameters={**terms[owner].parameters, name: value})
-            elif name in given:
-                given[name] = value
-            else:
-                known = [*given, *(p for term in terms for p in term.parameters)]
-                raise ValueError(f"a strut has no argument {name}; it has {', '.join(known)}")
-        if "terms" not in changes:
-            given["terms"] = tuple(terms)
-        return Strut(**given) if "n" in given else Strut.from_joints(**given)
+        arguments = changed(self.arguments, self.terms, changes)
+        return Strut(**arguments) if "n" in arguments else Strut.from_joints(**arguments)
 
     @property
     def recipe(self) -> dict[str, Any] | None:
@@ -136,7 +124,7 @@ class Strut:
     def _bend(self, *, curved: bool) -> None:
         """Choose the springs' energy: without rest angles none occur in the kernel."""
         bend = BENDING_WITH_REST if curved else BENDING
-        self._loaded = (bend, END_LOAD, *self.terms)
+        self.loaded = (bend, END_LOAD, *self.terms)
         self._unloaded = (bend, *self.terms)
 
     def with_joints(self, joints: Joints, parameters: dict[str, Any]) -> "Strut":
@@ -151,13 +139,7 @@ class Strut:
         return other
 
     def __repr__(self) -> str:
-        given = self.arguments
-        if "n" not in given:
-            said = f"n={self.n}, from joints"
-        else:
-            said = ", ".join(f"{name}={given[name]!r}" for name in ("n", "K", "u_hat", "rule"))
-            said += f", phi0={given['phi0']!r}" if given["phi0"] else ""
-        return f"Strut({said}{f', terms={self.terms!r}' if self.terms else ''})"
+        return f"Strut({said_of(self.arguments, self.n, self.terms)})"
 
     @property
     def n(self) -> int:
@@ -172,7 +154,7 @@ class Strut:
 
     @cached_property
     def _with_load(self) -> Kernel:
-        return kernel(self._loaded, weighted=self.joints.weights is not None)
+        return kernel(self.loaded, weighted=self.joints.weights is not None)
 
     @cached_property
     def _without_load(self) -> Kernel:
@@ -312,13 +294,9 @@ class Strut:
 
     def derivation(self, n: int = 3) -> "Derivation":
         """SymPy's energy, gradient and Hessian of this strut with n joints, and the source of its kernel."""
-        from rodlab.mechanics.derivation import derivation
+        from rodlab.mechanics.derivation import derivation_of
 
-        j = self.joints
-        own = j.weights is not None and not ((j.w[:-1] == 1).all() and j.last_weight == 0.5)
-        scalars = {name for name, given in self.parameters.items() if np.ndim(given) == 0}
-        weights = None if j.weights is None else "own" if own else "trapezoid"
-        return derivation(self._loaded, n, weights=weights, scalars=scalars, clamped_upright=j.phi0 == 0)
+        return derivation_of(self, n)
 
     # --- small parts ----------------------------------------------------------------------------------------------
 

@@ -41,9 +41,9 @@ class VariedStrut:
             raise ValueError(f"{name} cannot be followed where a term is quadratic in the place (a foundation)")
         self.strut, self.name, self.lam = strut, name, number("lam", lam)
         given = next((t.parameters[name] for t in strut.terms if name in t.parameters), strut.arguments.get(name))
-        self.scalar = not isinstance(given, str) and not callable(given) and np.ndim(given) == 0
         if given is None:
             raise ValueError(f"{name} must be given to be followed; this strut has none. Rest angles of one: beta=[1, 0, ...]")
+        self.scalar = not isinstance(given, str) and not callable(given) and np.ndim(given) == 0
         self._profile = given
         self.value = float(given) if self.scalar else 1.0
         self.unit = self._unit()

@@ -60,11 +60,11 @@ def start(n):
     return rl.switch(trivial.events[0])[0]
 
 
-def ours(first):
+def ours(first, most=1000):
     """The branch with the index of every point."""
-    b = rl.follow(first, to=TO)
+    b = rl.follow(first, to=TO, max_points=most)
     assert all(p.index == 0 and p.index_verified and (p.proved or p.checked) for p in b.points)
-    assert b.points[-1].lam == TO
+    assert b.points[-1].lam == TO or len(b.points) == most
     return b
 
 
@@ -95,7 +95,7 @@ def main():
     for n in sizes:
         first = start(n)
         begin = time.perf_counter()
-        b = ours(first)
+        b = ours(first, 15 if n < 10**6 else 4)
         costs.append((time.perf_counter() - begin) / (len(b.points) - 1))
         proved = sum(p.proved for p in b.points[1:])
         print(f"n = {n:8}: {len(b.points) - 1} points, {proved} proved, {1e3 * costs[-1]:9.2f} ms a point")
