@@ -47,6 +47,13 @@ class Crossing(NamedTuple):
     converged: bool = True
 
 
+def change(curve: Curve, segment: Segment, sigma: float, near: NearNull, part: float = 1e-4) -> Array:
+    """U^T J' V, (p, p): how J changes along the cubic on the vectors nearest null, by a central difference."""
+    e = part * segment.length
+    plus, minus = (curve.jacobian(segment.at(sigma + side * e)) for side in (1, -1))
+    return np.asarray(near.left.T @ np.column_stack([(plus @ v - minus @ v) / (2 * e) for v in near.right.T]))
+
+
 class Locator:
     """Finds the zeros on a segment of a curve."""
 
@@ -131,9 +138,7 @@ class Locator:
         J = curve.jacobian(y)
         near = near_null(J, p, symmetric=curve.symmetric(y), start=start)
         U, V = near.left, near.right
-        eps = 1e-4 * segment.length
-        plus, minus = (curve.jacobian(segment.at(sigma + side * eps)) for side in (1, -1))
-        slope = U.T @ np.column_stack([(plus @ v - minus @ v) / (2 * eps) for v in V.T])
+        slope = change(curve, segment, sigma, near)
         M = U.T @ np.column_stack([J @ v for v in V.T])
         if curve.symmetric(y):
             for j, v in enumerate(V.T):
@@ -188,10 +193,8 @@ class Locator:
         J = self.curve.jacobian(y)
         near = near_null(J, max(p, multiplicity), symmetric=self.curve.symmetric(y))
         rounding = max(quadratic(J, v)[1] for v in near.right.T[:multiplicity])
-        eps = 1e-4 * fence.length
-        plus, minus = (self.curve.jacobian(fence.at(sigma + side * eps)) for side in (1, -1))
-        rates = [abs(float(u @ (plus @ v - minus @ v))) / (2 * eps) for u, v in zip(near.left.T, near.right.T, strict=True)]
-        off = max(rounding / (min(rates[:multiplicity]) or np.inf), EPS * self._size(fence)) + 4 * wrong
+        rates = np.abs(np.diag(change(self.curve, fence, sigma, near)))[:multiplicity]
+        off = max(rounding / (float(rates.min()) or np.inf), EPS * self._size(fence)) + 4 * wrong
         error = off * abs(float(slope[-1])) + 2 * EPS * abs(float(y[-1])) + wrong
         null = NearNull(near.values[:multiplicity], near.right[:, :multiplicity], near.left[:, :multiplicity])
         return Crossing(y, float(error), multiplicity, null, fence)

@@ -28,12 +28,11 @@ CHORD = 1e-5  # relative size below which one more correction with the same fact
 
 
 class Corrected(NamedTuple):
-    """A solution y, its history, the distance left in any one unknown, and how fast the corrections shrank."""
+    """A solution y, its history, and the distance left in any one unknown."""
 
     y: Array
     history: tuple[NewtonStep, ...]
     remaining: float
-    contraction: float
 
 
 class Curve:
@@ -137,7 +136,7 @@ class Curve:
         Raises `NoConvergence` unless every correction is at most half the last, up to rounding.
         """
         history: list[NewtonStep] = []
-        last, contraction, solver, start = math.inf, 0.0, None, self.norm(y)
+        last, solver, start = math.inf, None, self.norm(y)
         while len(history) < limit:
             F = self._finite_residual(y, history)
             if solver is None:
@@ -153,19 +152,17 @@ class Curve:
             theta = size / last if 0 < last < math.inf else math.inf
             if theta > 0.5 and math.isfinite(theta) and size > floor:
                 if last <= ROUGH * scale:  # corrections of the size of rounding shrink no more
-                    return self._corrected(y, step, 2 * last, history, contraction)
+                    return self._corrected(y, step, 2 * last, history)
                 raise NoConvergence(f"corrections do not shrink: {last:.2g}, then {size:.2g}", tuple(history))
-            if math.isfinite(theta) and len(history) == 2:
-                contraction = theta
             y = y + step
             left = size * theta / (1 - theta) if theta < 0.5 else math.inf
             if size <= floor or left <= floor:
-                return self._corrected(y, step, min(size, left), history, contraction)
+                return self._corrected(y, step, min(size, left), history)
             last = size
             if size > CHORD * scale:
                 solver = None  # else the last factor serves once more
         if last <= PLATEAU * scale:
-            return self._corrected(y, step, 2 * last, history, contraction)
+            return self._corrected(y, step, 2 * last, history)
         raise NoConvergence(f"after {limit} corrections the last was {last:.2g}", tuple(history))
 
     def _finite_residual(self, y: Array, history: list[NewtonStep]) -> Array:
@@ -189,10 +186,10 @@ class Curve:
     def _size(self, F: Array) -> float:
         return self.norm(np.append(F, 0.0))
 
-    def _corrected(self, y: Array, step: Array, left: float, history: list[NewtonStep], contraction: float) -> Corrected:
+    def _corrected(self, y: Array, step: Array, left: float, history: list[NewtonStep]) -> Corrected:
         size = self.norm(step)
         remaining = left * float(np.abs(step[:-1]).max(initial=0.0)) / size if size else 0.0
-        return Corrected(y, tuple(history), remaining, contraction)
+        return Corrected(y, tuple(history), remaining)
 
 
 def _is_symmetric(J: Any) -> bool:

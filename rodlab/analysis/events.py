@@ -52,25 +52,31 @@ class Event:
         return f"Event({self.kind!r}, lam={self.lam:.12g}, error={self.error:.1e}{times}{why})"
 
 
+@dataclass(frozen=True)
 class Singular:
-    """Folds or branch points of a step: both are singular points of the Jacobian, told apart by F_lam."""
+    """What to ask for: a kind of singular point of the Jacobian."""
 
-    def __init__(self, kind: str) -> None:
-        self.kind = kind
+    kind: str
 
     def __repr__(self) -> str:
         return f"<event: {self.kind}>"
 
-    def find(self, step: Step, locator: Locator) -> Iterator[Event]:
-        """The events of this kind in a step, in order."""
-        for window in step.windows:
-            for event in _singular(window, locator, step):
-                if event.kind == self.kind:
-                    yield event
-
 
 fold = Singular("fold")
 branch_point = Singular("branch point")
+
+
+class SingularPoints:
+    """Folds and branch points of a step, told apart by F_lam, each located once; those of the kinds asked for."""
+
+    def __init__(self, kinds: set[str]) -> None:
+        self.kinds = kinds
+        self.kind = " or ".join(sorted(kinds))
+
+    def find(self, step: Step, locator: Locator) -> Iterator[Event]:
+        """The events of these kinds in a step, in order."""
+        found = (event for window in step.windows for event in _singular(window, locator, step))
+        return (event for event in found if event.kind in self.kinds)
 
 
 class Zero:
@@ -124,13 +130,15 @@ class Zero:
         return _event(self.kind, y, error, step, segment)
 
 
-def finders(events: Any) -> list[Singular | Zero]:
+def finders(events: Any) -> list[SingularPoints | Zero]:
     """The events asked for as finders; one sentence for what is none."""
     given = tuple(events) if isinstance(events, (tuple, list)) else (events,)
     for event in given:
         if not (isinstance(event, Singular) or callable(event)):
             raise ValueError(f"events must be rl.fold, rl.branch_point or functions of a point; one is {event!r:.60}")
-    return [event if isinstance(event, Singular) else Zero(event) for event in given]
+    kinds = {event.kind for event in given if isinstance(event, Singular)}
+    zeros = [Zero(event) for event in given if not isinstance(event, Singular)]
+    return [SingularPoints(kinds), *zeros] if kinds else list(zeros)
 
 
 # --- singular points ---------------------------------------------------------------------------------------------

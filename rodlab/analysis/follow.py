@@ -12,7 +12,7 @@ import numpy as np
 
 from rodlab.analysis.continuation import Step, Walk
 from rodlab.analysis.curve import Curve
-from rodlab.analysis.events import Event, Singular, Zero, branch_point, finders, fold
+from rodlab.analysis.events import Event, SingularPoints, Zero, branch_point, finders, fold
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.analysis.stops import Stops, Within, at_load, inside_of, passages, piece
@@ -137,7 +137,7 @@ def follow(
             return _ended(points, found, stop[2], converged=not stop[2].startswith("it runs away"))
 
 
-def _sorted(step: Step, walk: Walk, wanted: list[Singular | Zero], limit: float, before: int) -> Iterator[Event]:
+def _sorted(step: Step, walk: Walk, wanted: list[SingularPoints | Zero], limit: float, before: int) -> Iterator[Event]:
     events: list[Event] = []
     for finder in wanted:
         try:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq
 
-from rodlab.analysis.crossings import Crossing, Locator, Place
+from rodlab.analysis.crossings import Crossing, Locator, Place, change
 from rodlab.analysis.curve import Curve, Segment
 from rodlab.analysis.newton import NoConvergence
 from rodlab.numerics.arrays import EPS
@@ -73,12 +73,9 @@ def _turning_eigenvalue(curve: Curve) -> Callable[[Segment], float | None]:
 
     def where(segment: Segment) -> float | None:
         def rate(x: float) -> float:
-            sigma, e = x * segment.length, 1e-3 * segment.length
-            y = segment.at(sigma)
+            y = segment.at(x * segment.length)
             near = near_null(curve.jacobian(y), 1, symmetric=curve.symmetric(y))
-            plus, minus = (curve.jacobian(segment.at(sigma + side * e)) for side in (1, -1))
-            v = near.right[:, 0]
-            return float(near.left[:, 0] @ (plus @ v - minus @ v)) * float(np.sign(near.values[0]) or 1.0)
+            return float(change(curve, segment, x * segment.length, near, 1e-3)[0, 0]) * float(np.sign(near.values[0]) or 1.0)
 
         return segment.length * root(rate, 0.02, 0.98) if rate(0.02) * rate(0.98) < 0 else None
 

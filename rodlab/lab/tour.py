@@ -14,6 +14,7 @@ from tqdm import tqdm
 from rodlab.analysis.equilibrium import equilibrium
 from rodlab.analysis.follow import Branch, follow
 from rodlab.files import write_whole
+from rodlab.lab.answers import branches_table
 from rodlab.lab.branches import Found, Shown, detached, mode_branch, on, straight, timed, trivial
 from rodlab.lab.loads import Extrapolated, Load, extrapolate, loads_against_n
 from rodlab.lab.picture import diagram_picture, loads_picture, png, shapes_picture
@@ -53,7 +54,7 @@ def tour(folder: Path) -> tuple[dict[str, Any], str]:
     }
     answer["files"] = [str(write_whole(folder / name, content)) for name, content in files.items()]
     answer["seconds"] = time.perf_counter() - start
-    return answer, _text(answer, loads, limits, states)
+    return answer, _text(answer, loads, limits, states, shown)
 
 
 def diagram(strut: Strut, known: Sequence[float]) -> Iterator[Shown]:
@@ -117,7 +118,9 @@ def _columns(rows: Sequence[dict[str, Any]]) -> tuple[list[str], list[list[Any]]
     return list(rows[0]), [list(row.values()) for row in rows]
 
 
-def _text(answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found]) -> str:
+def _text(
+    answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found], shown: Sequence[Shown]
+) -> str:
     parts = [_loads_table(rule, loads, limits) for rule in RULES]
     parts.append(
         table(
@@ -133,19 +136,7 @@ def _text(answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrap
             ],
         )
     )  # fmt: skip
-    parts.append(
-        table(
-            f"Branches of the strut, n = {JOINTS}, perfect and with u_hat = {IMPERFECTION}",
-            ["branch", "from", "to", "points", "proved", "checked", "ms", "events"],
-            [
-                [
-                    b["branch"], f"{b['from']:.4f}", f"{b['to']:.4f}", b["points"], b["proved"], b["checked"],
-                    f"{1e3 * b['seconds']:.0f}", b["events"],
-                ]
-                for b in answer["branches"]
-            ],
-        )
-    )  # fmt: skip
+    parts.append(branches_table(f"Branches of the strut, n = {JOINTS}, perfect and with u_hat = {IMPERFECTION}", shown))
     parts.append(
         "index: negative eigenvalues of the second variation, verified by inertia (? where it is not); 0 is stable.\n"
         "+-: error of the tip angle against the exact solution, estimated from above; height and energy have no estimate.\n"
