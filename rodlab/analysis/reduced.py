@@ -56,13 +56,9 @@ class Reduced:
             F = np.asarray(self.curve.equations.residual(u, lam))
             if not np.isfinite(F).all():
                 break
-            side = xi - self.rows.T @ (u - self.y[:-1])
-            try:
-                du, db = self.matrix.solve(-F - self.weight * (self.Psi @ b), side)
-            except ArithmeticError as error:
-                raise NoConvergence(str(error), ()) from None
+            du, db = self.matrix.solve_once(-F - self.weight * (self.Psi @ b), xi - self.rows.T @ (u - self.y[:-1]))
             size = self.curve.norm(np.append(du, 0.0))
-            if size > last / 3 and size > 1e-13 * (1 + self.curve.norm(np.append(u, 0.0))):
+            if not np.isfinite(size) or (size > last / 3 and size > 1e-13 * (1 + self.curve.norm(np.append(u, 0.0)))):
                 break
             u, b = u + du, b + db
             if size <= 1e-15 * (1 + self.curve.norm(np.append(u, 0.0))) or (size > last / 3):
@@ -84,7 +80,7 @@ class Polynomial:
             c for degree in range(DEGREE + 1) for c in combinations_with_replacement(range(self.p + 1), degree)
         ]  # monomials as lists of variables
         rng = np.random.default_rng(2)
-        samples = rng.uniform(-1.2, 1.2, (3 * len(self.powers) + 8, self.p + 1))
+        samples = rng.uniform(-1.2, 1.2, (2 * len(self.powers), self.p + 1))
         values = np.array([reduced.at(rho * s[:-1], mu0 * float(s[-1]))[1] for s in samples])
         A = self._monomials(samples)
         self.coefficients, *_ = np.linalg.lstsq(A, values, rcond=None)

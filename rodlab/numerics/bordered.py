@@ -87,6 +87,12 @@ class Bordered:
             solver = OneBorder(solver, np.append(B[:, j], D[:j, j]), np.append(C[:, j], D[j, :j]), float(D[j, j]))
         return solver
 
+    def solve_once(self, f: Array, g: Array) -> tuple[Array, Array]:
+        """x (n,) and y (m,) without refinement, for an iteration that corrects itself."""
+        with np.errstate(all="ignore"):
+            z = self._solver.solve(np.append(f, g))
+        return z[: f.size], z[f.size :]
+
     def solve(self, f: Array, g: Array) -> tuple[Array, Array]:
         """x (n,) and y (m,), refined until the correction stops shrinking.
 
