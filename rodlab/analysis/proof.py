@@ -86,10 +86,12 @@ class Prover:
         found: list[Span] = []
         waiting = [(0.0, 1.0)]
         gate = float(np.abs(segment.b - segment.a)[:-1].max(initial=0.0)) / 64 + 1e-9
-        ends = {x: (y, self._residual(y)) for x, y in ((0.0, segment.a), (1.0, segment.b))}
+        ends = {0.0: (segment.a, 0.0), 1.0: (segment.b, 0.0)}  # solutions: what is left of F there is rounding
         while waiting:
             start, stop = waiting.pop()
             span = self._shown(self._chord(ends[start], ends[stop], gate), start * length, stop * length)
+            if not found and stop - start == 1 and span.kind == "open" and self._drowned(segment, gate):
+                return [span]
             if span.kind == "open" and stop - start > finest * 1.5:
                 middle = (start + stop) / 2
                 y = segment.at(middle * length)
@@ -98,6 +100,14 @@ class Prover:
                 continue
             found.append(span)
         return _merged(_joined(found))
+
+    def _drowned(self, segment: Segment, gate: float) -> bool:
+        """True when rounding of F alone, as it is at the ends, asks for more than J has: parts would not be shown either."""
+        if not self.proves:
+            return False
+        noise = max(self._residual(segment.a), self._residual(segment.b))
+        kappa = self._held(self._chord((segment.a, 0.0), (segment.b, 0.0), gate), noise, gate)
+        return index_within(self.curve.jacobian(segment.at(segment.length / 2)), kappa) is None
 
     def _applies(self, y: Array) -> bool:
         """True when the bounds are finite and the index is that of the Jacobian itself."""
