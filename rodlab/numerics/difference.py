@@ -150,9 +150,18 @@ class DifferenceForm(Symmetric):
         return Inertia(least, 0, n - least) if least == most else self._mixed_inertia(spread)
 
     def index_within(self, slack: Array | float) -> int | None:
-        """The index that all D^T k D - diag(c') with |c' - c| <= slack share, as far as the entries can tell; else None."""
-        least, most = self._counted(self._spread(slack))
-        return least if least == most else None
+        """The index that all D^T k D - diag(c') with |c' - c| <= slack share; None where they do not, or may not.
+
+        The mixed form is asked only where rounding of the entries, not the slack, is what leaves it open.
+        """
+        spread = self._spread(slack)
+        least, most = self._counted(spread)
+        if least == most:
+            return least
+        if 8 * EPS * float(self.springs.k.max()) < float(spread.max()) / 4:
+            return None
+        known = self._mixed_inertia(spread)
+        return None if known.unclear else known.negative
 
     def _spread(self, slack: Array | float) -> Array:
         spread = np.abs(self.c)
