@@ -99,8 +99,8 @@ class Inspector:
             return
         last = left
         for crossing in crossings:
-            ends = (Place(y, t, None) for y, t in ((crossing.fence.a, crossing.fence.ta), (crossing.fence.b, crossing.fence.tb)))
-            before, after = (replace(place, index=self.curve.index(place.y)) for place in ends)
+            fence = crossing.fence
+            before, after = (Place(y, t, self.curve.index(y)) for y, t in ((fence.a, fence.ta), (fence.b, fence.tb)))
             yield from self._beside(last, before)
             yield Window(before, after, fold=False, crossings=(crossing,))
             last = after

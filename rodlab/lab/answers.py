@@ -51,7 +51,7 @@ def points_table(title: str, branch: Branch) -> str:
         ]
         for p in shown
     ]  # fmt: skip
-    note = f"\n(every {every}th of {len(branch)} points)" if every > 1 else ""
+    note = f"\n(one in {every} of {len(branch)} points)" if every > 1 else ""
     return table(title, ["load", "tip angle", "+-", "height", "energy", "index", "step"], rows) + note
 
 
