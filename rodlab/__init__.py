@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from rodlab.lab.saved import read
     from rodlab.mechanics.buckling import Buckling, buckling, buckling_loads
     from rodlab.mechanics.convexity import uniqueness
+    from rodlab.mechanics.elastica import Elastica, elastica
+    from rodlab.mechanics.rod import Rod
     from rodlab.mechanics.strut import Strut
     from rodlab.mechanics.terms import Term, end_torque, foundation, self_weight, term
     from rodlab.numerics.bordered import Bordered
@@ -38,11 +40,13 @@ _HOME = {
     "Bordered": "numerics.bordered",
     "Branch": "analysis.follow",
     "Buckling": "mechanics.buckling",
+    "Elastica": "mechanics.elastica",
     "Equations": "analysis.equations",
     "Event": "analysis.events",
     "Newton": "analysis.newton",
     "NoConvergence": "analysis.newton",
     "Point": "analysis.point",
+    "Rod": "mechanics.rod",
     "Shape": "analysis.point",
     "Strut": "mechanics.strut",
     "Term": "mechanics.terms",
@@ -51,6 +55,7 @@ _HOME = {
     "branch_point": "analysis.events",
     "buckling": "mechanics.buckling",
     "buckling_loads": "mechanics.buckling",
+    "elastica": "mechanics.elastica",
     "end_torque": "mechanics.terms",
     "equilibrium": "analysis.equilibrium",
     "factor": "numerics.factor",
@@ -67,8 +72,8 @@ _HOME = {
 }
 
 __all__ = [  # the same names; a test compares
-    "Bordered", "Branch", "Buckling", "Equations", "Event", "Newton", "NoConvergence", "Point", "Shape",
-    "Strut", "Term", "Tridiagonal", "branch", "branch_point", "buckling", "buckling_loads", "end_torque",
+    "Bordered", "Branch", "Buckling", "Elastica", "Equations", "Event", "Newton", "NoConvergence", "Point", "Rod", "Shape",
+    "Strut", "Term", "Tridiagonal", "branch", "branch_point", "buckling", "buckling_loads", "elastica", "end_torque",
     "equilibrium", "factor", "fold", "follow", "foundation", "read", "self_weight", "steepest_descent",
     "switch", "term", "uniqueness", "vary",
 ]  # fmt: skip

@@ -13,8 +13,9 @@ is halved.
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,6 +36,7 @@ AIM = 0.01  # the error that the next step aims at
 GROWTH = 3.0  # longest step after a step
 MOST = 200  # lengths tried for one step
 REFUSED = 8  # refusals for open parts, step after step, before what stays open is checked instead
+MESHES = 20  # tried for one step
 UNVERIFIED = 3  # ends without a verified index before one is accepted
 SHORTEST = 1e-11  # of the size of the point: no shorter step is tried
 
@@ -76,6 +78,10 @@ def _points(walk: "Walk") -> Iterator[Point]:
         yield walk.advance().point
 
 
+class Remeshed(NoConvergence):
+    """The mesh did not serve at the end of the step; the same step is tried again on a better one."""
+
+
 class Walk:
     """Where a continuation stands: the last point with its tangent, the point before, and the length of the next step."""
 
@@ -85,15 +91,48 @@ class Walk:
         if not isinstance(p, Point):
             raise ValueError(f"p must be a Point, as equilibrium returns it; it is {p!r:.60}")
         self.longest = math.inf if step is None else min(number("step", step, above=0.0), 1e100)
-        self.curve = Curve(p.equations, _scale(p, step, toward) if scale is None else number("scale", scale, above=0.0))
-        self.natural, self.prover, self.locator = natural, Prover(self.curve), Locator(self.curve)
-        self.inspector = Inspector(self.prover, self.locator)
+        size = _scale(p, step, toward) if scale is None else number("scale", scale, above=0.0)
+        self._stand_on(Curve(p.equations, size))
+        self.natural = natural
         check_derivatives(p.equations, p.u, p.lam)
         y = np.append(p.u, p.lam)
         self.here = Place(y, self._start(p, y, toward), self.curve.index(y))
         self.before: Place | None = None
         self.refused = 0  # refusals for open parts since a step was shown at its first length
         self.length = min(self.longest, self._first(p, toward))
+        self.coarser: Any = None  # the equations on a coarser mesh that serves as well, for the next step
+
+    def _stand_on(self, curve: Curve) -> None:
+        self.curve = curve
+        self.prover, self.locator = Prover(self.curve), Locator(self.curve)
+        self.inspector = Inspector(self.prover, self.locator)
+
+    # --- meshes ------------------------------------------------------------------------------------------------
+
+    def _serves(self, y: Array, t: Array) -> None:
+        """Raise `Remeshed` where the mesh does not serve at a new point, having moved to one that does; note a coarser one."""
+        adapted = getattr(self.curve.equations, "adapted", None)
+        better = None if adapted is None else adapted(y[:-1], float(y[-1]), t)
+        self.coarser = None
+        if better is None:
+            return
+        if better[1].size < y.size - 1:
+            self.coarser = better[0]
+            return
+        self._move_to(better[0])
+        raise Remeshed("the mesh was too coarse for the end of the step", ())
+
+    def _move_to(self, equations: Any) -> None:
+        """Take the last two points along to the same equations on another mesh; raises `NoConvergence`, all as it was."""
+        old, here, before = self.curve.equations, self.here, self.before
+        curve = Curve(equations, self.curve.scale)
+        t = carried(old, equations, here.tangent, direction=True)
+        y = curve.correct(carried(old, equations, here.y), curve.row(t)).y
+        self.here = Place(y, curve.tangent(y, t), curve.index(y))
+        if before is not None:
+            past = carried(old, equations, before.tangent, direction=True)
+            self.before = Place(carried(old, equations, before.y), past, before.index)
+        self._stand_on(curve)
 
     def _start(self, p: Point, y: Array, toward: float | None) -> Array:
         if p.tangent is not None:
@@ -123,14 +162,21 @@ class Walk:
 
     def advance(self) -> Step:
         """Take one step. Raises `NoConvergence` when none is short enough to be shown."""
+        if self.coarser is not None:
+            with suppress(NoConvergence):
+                self._move_to(self.coarser)
+            self.coarser = None
         s, least = self.length, SHORTEST * max(1e-3, self.curve.norm(self.here.y))
         why: NoConvergence | None = None
-        opened = unverified = 0  # refusals of this step
+        opened = unverified = meshes = 0  # refusals of this step
         for _ in range(MOST):
             if s < least and why is not None:
                 break
             try:
                 step = self._tried(s, Patience(self.refused + opened < REFUSED, unverified < UNVERIFIED))
+            except Remeshed as failure:
+                why, meshes = failure, meshes + 1
+                s *= 1.0 if meshes < MESHES else 0.5
             except NoConvergence as failure:
                 why = failure
                 opened += isinstance(failure, Open)
@@ -155,6 +201,7 @@ class Walk:
         if miss > MISS:
             raise NoConvergence(f"the prediction was wrong by {miss:.2g} of the step", found.history)
         segment = Segment(here.y, here.tangent, found.y, curve.tangent(found.y, here.tangent), row)
+        self._serves(found.y, segment.tb)
         turn = curve.dot(here.tangent, segment.tb)
         if not turn > TURN:
             raise NoConvergence(f"the tangent turned by {math.degrees(math.acos(max(-1.0, min(1.0, turn)))):.0f} degrees", ())
@@ -180,11 +227,12 @@ class Walk:
 
     def _shown(self, segment: Segment, found: Corrected, patience: Patience) -> Step:
         """The step with what was shown of it. Raises `NoConvergence` when it is not explained."""
-        spans = self.prover.spans(segment)
+        end = self.curve.index(segment.b) if self.here.index is not None and self.prover.proves else None
+        spans = self.prover.spans(segment, hasty=end is not None and end == self.here.index)
         last = spans[-1]
         if not self.prover.proves:
             self.locator.place(segment, segment.length / 2)  # and half-way
-        index = last.index if last.kind == "regular" else self.curve.index(segment.b)
+        index = last.index if last.kind == "regular" else end if end is not None else self.curve.index(segment.b)
         a, b = self.here, Place(segment.b, segment.tb, index)
         if a.index is None and spans[0].index is not None:
             a = replace(a, index=spans[0].index)
@@ -193,13 +241,21 @@ class Walk:
 
     def _step(self, segment: Segment, found: Corrected, index: int | None, proved: bool, windows: tuple[Window, ...]) -> Step:
         inertia = None
-        if proved and index is not None and not (windows and windows[-1].b.y is segment.b):
+        own = hasattr(self.curve.equations, "inertia")  # where meshes are compared for it
+        if proved and not own and index is not None and not (windows and windows[-1].b.y is segment.b):
             inertia = Inertia(index, 0, segment.b.size - 1 - index)  # shown for all solutions near by, the exact one among them
         point = Point(
             self.curve.equations, float(segment.b[-1]), segment.b[:-1].copy(), found.history, found.remaining,
             tangent=segment.tb, accepted="proved" if proved else "checked", known_inertia=inertia,
         )  # fmt: skip
         return Step(segment, self.here, Place(segment.b, segment.tb, index), proved, windows, point)
+
+
+def carried(old: Any, new: Any, y: Array, *, direction: bool = False) -> Array:
+    """y = (u, lam), or a direction, of the same equations on another mesh."""
+    if old is new or not hasattr(new, "moved"):
+        return y
+    return np.append(new.moved(old, y[:-1], direction=direction), y[-1])
 
 
 def _scale(p: Point, step: float | None, toward: float | None) -> float:

@@ -192,12 +192,20 @@ class Locator:
         y, slope = fence.at(sigma), fence.derivative(sigma)
         J = self.curve.jacobian(y)
         near = near_null(J, max(p, multiplicity), symmetric=self.curve.symmetric(y))
-        rounding = max(quadratic(J, v)[1] for v in near.right.T[:multiplicity])
+        rounding = max(quadratic(J, v)[1] + self.missed(y, v)[1] for v in near.right.T[:multiplicity])
         rates = np.abs(np.diag(change(self.curve, fence, sigma, near)))[:multiplicity]
         off = max(rounding / (float(rates.min()) or np.inf), EPS * self._size(fence)) + 4 * wrong
         error = off * abs(float(slope[-1])) + 2 * EPS * abs(float(y[-1])) + wrong
         null = NearNull(near.values[:multiplicity], near.right[:, :multiplicity], near.left[:, :multiplicity])
         return Crossing(y, float(error), multiplicity, null, fence)
+
+    def missed(self, y: Array, v: Array) -> tuple[float, float]:
+        """How much the mesh misses of v . F and of v . J v, where the model has a mesh."""
+        own = getattr(self.curve.equations, "missed", None)
+        if own is None:
+            return 0.0, 0.0
+        force, stiffness = own(y[:-1], float(y[-1]), v)
+        return float(force), float(stiffness)
 
     def _settled(self, fence: Segment, sigma: float, p: int) -> float:
         """sigma moved to the zero next to it until it no longer moves."""

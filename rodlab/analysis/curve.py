@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rodlab.analysis.equations import Equations, jacobian, second_variation
-from rodlab.analysis.newton import NewtonStep, NoConvergence
+from rodlab.analysis.newton import WIDE, NewtonStep, NoConvergence
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.bordered import OneBorder
 from rodlab.numerics.factor import factor, inertia_of
@@ -50,13 +50,16 @@ class Curve:
     def __init__(self, equations: Equations, scale: float = 1.0) -> None:
         self.equations, self.scale = equations, scale
         self._symmetric: bool | None = None
+        self._wide = getattr(equations, "residual_wide", None)
         bound = getattr(equations, "embedding", None)
         self.embedding = bound if bound is not None else lambda _: (0.0, 1.0)
 
     # --- the equations on y ------------------------------------------------------------------------------------
 
-    def residual(self, y: Array) -> Array:
-        """F(u, lam)."""
+    def residual(self, y: Array, *, wide: bool = False) -> Array:
+        """F(u, lam); `wide` with more digits, where the model has them."""
+        if wide and self._wide is not None:
+            return np.asarray(self._wide(y[:-1], float(y[-1])))
         return np.asarray(self.equations.residual(y[:-1], float(y[-1])))
 
     def jacobian(self, y: Array) -> Any:
@@ -136,9 +139,12 @@ class Curve:
         Raises `NoConvergence` unless every correction is at most half the last, up to rounding.
         """
         history: list[NewtonStep] = []
-        last, solver, start = math.inf, None, self.norm(y)
+        last, solver, start, wide, reusable = math.inf, None, self.norm(y), False, True
         while len(history) < limit:
-            F = self._finite_residual(y, history)
+            if self._wide is not None and not wide and last <= WIDE * max(self.norm(y), start):
+                wide, last = True, math.inf  # what follows sees a better residual, and is not compared with the last step
+            F = self._finite_residual(y, history, wide=wide)
+            reused = solver is not None
             if solver is None:
                 solver = self._solver(y, row, history)
             with np.errstate(all="ignore"):
@@ -150,6 +156,9 @@ class Curve:
                 raise NoConvergence(f"the corrector left: a correction of {size:.2g} from a point of {scale:.2g}", tuple(history))
             floor = 2 * EPS * max(self.norm(np.append(y[:-1], 0.0)), 1e-3 * start)
             theta = size / last if 0 < last < math.inf else math.inf
+            if theta > 0.5 and reused and math.isfinite(theta):
+                solver, reusable = None, False  # a nearly singular matrix serves once only
+                continue
             if theta > 0.5 and math.isfinite(theta) and size > floor:
                 if last <= ROUGH * scale:  # corrections of the size of rounding shrink no more
                     return self._corrected(y, step, 2 * last, history)
@@ -159,16 +168,16 @@ class Curve:
             if size <= floor or left <= floor:
                 return self._corrected(y, step, min(size, left), history)
             last = size
-            if size > CHORD * scale:
+            if size > CHORD * scale or not reusable:
                 solver = None  # else the last factor serves once more
         if last <= PLATEAU * scale:
             return self._corrected(y, step, 2 * last, history)
         raise NoConvergence(f"after {limit} corrections the last was {last:.2g}", tuple(history))
 
-    def _finite_residual(self, y: Array, history: list[NewtonStep]) -> Array:
+    def _finite_residual(self, y: Array, history: list[NewtonStep], *, wide: bool) -> Array:
         try:
             with np.errstate(all="ignore"):
-                F = self.residual(y) if np.isfinite(y).all() else np.full(y.size - 1, np.nan)
+                F = self.residual(y, wide=wide) if np.isfinite(y).all() else np.full(y.size - 1, np.nan)
         except (ValueError, ArithmeticError) as error:
             raise NoConvergence(f"the residual cannot be computed: {error}", tuple(history)) from error
         if not np.isfinite(F).all():

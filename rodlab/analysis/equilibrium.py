@@ -1,12 +1,19 @@
-"""An equilibrium at one load: Newton's method from a guess and, where that fails and the model knows its energy, downhill."""
+"""An equilibrium at one load: Newton's method from a guess and, where that fails and the model knows its energy, downhill.
 
+A model with a mesh is then solved on better ones until one serves.
+"""
+
+from dataclasses import replace
 from typing import Any
 
 from rodlab.analysis.downhill import downhill, has_energy
 from rodlab.analysis.equations import Equations, started
 from rodlab.analysis.newton import Newton, NoConvergence
 from rodlab.analysis.point import Point
-from rodlab.numerics.arrays import number, whole
+from rodlab.numerics.arrays import Array, number, whole
+
+MESHES = 24  # tried one after the other
+FINER = (2, 4, 1, 3)  # how often the mesh is halved for a guess, tried in turn before the way goes downhill
 
 
 def equilibrium(model: Equations, lam: float, guess: Any = None, *, limit: int = 100) -> Point:
@@ -22,15 +29,34 @@ def equilibrium(model: Equations, lam: float, guess: Any = None, *, limit: int =
     >>> round(p.tip_angle, 12), p.index, p.error < 1e-14
     (1.895494267034, 0, True)
     """
-    lam = number("lam", lam)
-    u = started(model, guess)
-    run = Newton.at(model, lam, whole("limit", limit, least=1))
-    try:
-        root = run.solve(u)
-        return Point(model, lam, root.u, root.history, root.remaining)
-    except NoConvergence as failure:
-        if not has_energy(model):
-            raise
-        tried = failure.history
+    lam, limit = number("lam", lam), whole("limit", limit, least=1)
+    last: NoConvergence | None = None
+    for finer in (FINER if callable(guess) and hasattr(model, "suited") else FINER[:1]):
+        suited = getattr(model, "suited", None)
+        own = model if suited is None else suited(guess, finer)
+        u, run = started(own, guess), Newton.at(own, lam, limit)
+        try:
+            root = run.solve(u)
+            return on_its_mesh(Point(own, lam, root.u, root.history, root.remaining))
+        except NoConvergence as failure:
+            first, last = (own, u, run) if last is None else first, failure
+    assert last is not None
+    if not has_energy(model):
+        raise last
+    model, u, run = first
     root = downhill(model, lam, u, run)
-    return Point(model, lam, root.u, (*tried, *root.history), root.remaining)
+    return on_its_mesh(Point(model, lam, root.u, (*last.history, *root.history), root.remaining))
+
+
+def on_its_mesh(p: Point) -> Point:
+    """The same solution on a mesh that serves, where the model adapts one; else p itself. Raises `NoConvergence`."""
+    for _ in range(MESHES):
+        adapted = getattr(p.equations, "adapted", None)
+        better = None if adapted is None else adapted(p.u, p.lam, p.tangent)
+        if better is None:
+            break
+        model, u, tangent = better
+        root = Newton.at(model, p.lam).solve(u)
+        history = (*p.newton, *root.history)
+        p = replace(p, equations=model, u=root.u, newton=history, remaining=root.remaining, tangent=tangent)
+    return p

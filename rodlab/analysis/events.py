@@ -198,6 +198,7 @@ def _fold_at(y: Array, segment: Segment, locator: Locator, step: Step) -> Event:
     own = getattr(curve.equations, "rounding", None)
     noise = float(own(y[:-1], float(y[-1]), psi)) if own is not None else float(np.abs(psi) @ point._noise)
     push = abs(float(psi @ curve.d_lam(y))) or np.inf
+    noise += locator.missed(y, psi)[0]
     error = (noise + abs(float(psi @ curve.residual(y)))) / push + 2 * EPS * abs(float(y[-1]))
     return _event("fold", y, error, step, segment, None, 1, null=near.right)
 

@@ -20,6 +20,7 @@ from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.factor import Factor, factor, solve
 
 SHORTEST = 1e-9  # damping below this finds nothing more
+WIDE = 1e-4  # relative step below which the residual is asked for to more digits, where the model has them
 FLOOR = 1e-7  # relative step below which steps that stop shrinking are rounding, or a singular root
 
 
@@ -68,6 +69,10 @@ class Newton:
     jacobian: Callable[[Array], Any]
     norm: Callable[[Array], float]
     limit: int = 100
+    wide: Callable[[Array], Array] | None = None  # the residual to more digits, for the last steps
+
+    def __post_init__(self) -> None:
+        self._last = False
 
     @classmethod
     def at(cls, model: Equations, lam: float, limit: int = 100) -> "Newton":
@@ -86,11 +91,14 @@ class Newton:
                 raise ValueError(f"inner(v, v) must not be negative; it is {square:g}")
             return math.sqrt(square)
 
-        return cls(residual, lambda u: jacobian(model, u, lam), norm, limit)
+        own = getattr(model, "residual_wide", None)
+        wide = None if own is None else (lambda u: own(u, lam))
+        return cls(residual, lambda u: jacobian(model, u, lam), norm, limit, wide)
 
     def solve(self, u: Array) -> Solution:
         """A root from the first iterate u; raises `NoConvergence` with its history."""
         self.history: list[NewtonStep] = []
+        self._last = False
         F = self._residual(u)
         if F is None:
             raise NoConvergence("Newton cannot start: the residual at the first guess is not finite", ())
@@ -111,10 +119,13 @@ class Newton:
             step = self._step(u, F)
             size = self.norm(step) if step is not None else math.inf
             self._tell(size, F)
+            switched = self.wide is not None and not self._last and size <= WIDE * max(self.norm(u), start)
+            if switched:  # what follows sees a better residual, and is not compared with this step
+                self._last, size = True, math.inf
             floor = 2 * EPS * max(self.norm(u), 1e-3 * start)
             if step is not None and size <= floor:
                 return self._solution(u + step, step, size)
-            if not size < last or step is None:
+            if (not size < last and not switched) or step is None:
                 if last < math.inf and self._is_rounding(*before):  # steps can shrink no more; the error says how far
                     small = last <= FLOOR * max(self.norm(u), start)
                     left = last * max(1.0, contraction / (1 - contraction)) if small else 2 * last
@@ -171,7 +182,7 @@ class Newton:
     def _residual(self, u: Array) -> Array | None:
         with np.errstate(all="ignore"):
             try:
-                return _finite(self.residual(u))
+                return _finite(self.residual(u) if self.wide is None or not self._last else self.wide(u))
             except ValueError:
                 if np.isfinite(u).all():
                     raise

@@ -117,11 +117,14 @@ class Point:
         return self._shape.z
 
     def __call__(self, s: Any) -> Shape:
-        """The shape at arclengths s, linear between the nodes; raises `ValueError` outside of the rod."""
+        """The shape at arclengths s, between the nodes linear or as the model knows it; raises `ValueError` outside of the rod."""
         s = np.asarray(s, dtype=np.float64)
         own = self._shape
+        between = getattr(self.equations, "between", None)
         if not ((s >= own.s[0]) & (s <= own.s[-1])).all():
             raise ValueError(f"s must lie between {own.s[0]:g} and {own.s[-1]:g}; it is {s!r:.60}")
+        if between is not None:
+            return Shape(s, *(values.reshape(s.shape) for values in between(self.u, self.lam, s.ravel())))
         return Shape(s, *(np.interp(s, own.s, values) for values in own[1:]))
 
     # --- index -----------------------------------------------------------------------------------------------------
@@ -131,6 +134,10 @@ class Point:
         """Signs of the eigenvalues of the second variation; None where there is none (no symmetric Jacobian)."""
         if self.known_inertia is not None:  # shown for every solution near by, the exact one among them
             return self.known_inertia
+        own = getattr(self.equations, "inertia", None)
+        if own is not None:
+            known: Inertia = own(self.u, self.lam, self.remaining)
+            return known
         matrix = second_variation(self.equations, self.u, self.lam)
         bound = getattr(self.equations, "lipschitz", None)
         off = 2 * self.remaining_angle
@@ -185,7 +192,11 @@ class Point:
         by the adjoint v = J^{-T} e_n: of first order in these. Without the member `rounding` that bound is an
         estimate: eps |J| |u|, and how far from linear the residual is over a few units of rounding. Infinite where the index
         could not be verified, so that J may be singular and no error is known, unless the residual is exactly zero.
+        A model with a mesh tells its error by its own member `error`, that of the mesh included.
         """
+        own = getattr(self.equations, "error", None)
+        if own is not None:
+            return float(own(self.u, self.lam, self.remaining)) if self.index_verified else np.inf
         unit = np.zeros_like(self.u)
         unit[-1] = 1.0
         J, F = jacobian(self.equations, self.u, self.lam), np.asarray(self.equations.residual(self.u, self.lam))

@@ -24,6 +24,7 @@ from rodlab.analysis.curve import Curve, Segment
 from rodlab.numerics.arrays import Array
 from rodlab.numerics.bordered import OneBorder
 from rodlab.numerics.factor import factor, index_within, largest_change, shifted
+from rodlab.numerics.slack import form, largest
 
 MARGIN = 1.01  # on every bound, for rounding in computing it
 EXTENDED = 1.1  # a fold is shown for a chord this much longer, for what lies between its ends and its neighbours'
@@ -70,14 +71,18 @@ class Prover:
     def __init__(self, curve: Curve) -> None:
         self.curve = curve
         self.lipschitz: Any = getattr(curve.equations, "lipschitz", None)
+        self.seen: Any = getattr(curve.equations, "seen", np.asarray)
 
     @property
     def proves(self) -> bool:
         """True when the model knows bounds, so that what is shown is proved."""
         return self.lipschitz is not None
 
-    def spans(self, segment: Segment, finest: float = FINEST) -> list[Span]:
-        """The segment in spans, each regular, a fold, or open: not shown with parts of the size `finest`."""
+    def spans(self, segment: Segment, finest: float = FINEST, *, hasty: bool = False) -> list[Span]:
+        """The segment in spans, each regular, a fold, or open: not shown with parts of the size `finest`.
+
+        hasty: all of it is called open as soon as a part is.
+        """
         length = segment.length
         if not self.curve.has_index(segment.a):
             return [Span(0.0, length, "open", None)]
@@ -85,7 +90,7 @@ class Prover:
             self.lipschitz = None
         found: list[Span] = []
         waiting = [(0.0, 1.0)]
-        gate = float(np.abs(segment.b - segment.a)[:-1].max(initial=0.0)) / 64 + 1e-9
+        gate = float(np.abs(self.seen((segment.b - segment.a)[:-1])).max(initial=0.0)) / 64 + 1e-9
         ends = {0.0: (segment.a, 0.0), 1.0: (segment.b, 0.0)}  # solutions: what is left of F there is rounding
         while waiting:
             start, stop = waiting.pop()
@@ -98,6 +103,8 @@ class Prover:
                 ends[middle] = (y, self._residual(y))
                 waiting += [(middle, stop), (start, middle)]
                 continue
+            if span.kind == "open" and hasty:
+                return [Span(0.0, length, "open", None)]
             found.append(span)
         return _merged(_joined(found))
 
@@ -114,7 +121,7 @@ class Prover:
         d, _ = self.lipschitz(y[:-1], float(y[-1]))(0.0, 0.0)
         own = getattr(self.curve.equations, "second_variation", None)
         same = own is None or largest_change(self.curve.second_variation(y), self.curve.jacobian(y)) == 0
-        return bool(np.isfinite(np.max(d))) and same and self.curve.symmetric(y)
+        return math.isfinite(largest(d)) and same and self.curve.symmetric(y)
 
     def _shown(self, chord: _Chord, start: float, stop: float) -> Span:
         if not self.proves:
@@ -128,7 +135,7 @@ class Prover:
 
     def _chord(self, a: tuple[Array, float], b: tuple[Array, float], gate: float) -> _Chord:
         half, middle = (b[0] - a[0]) / 2, (a[0] + b[0]) / 2
-        du, dlam = np.abs(half[:-1]), abs(float(half[-1]))
+        du, dlam = np.abs(self.seen(half[:-1])), abs(float(half[-1]))
         r = max(float(du.max(initial=0.0)) / 8, 2 * gate)
         bound = self.lipschitz(middle[:-1], float(middle[-1])) if self.proves else None
         return _Chord(a[0], b[0], max(a[1], b[1]), middle, du, dlam, r, dlam / 4 + gate, gate, bound)
@@ -145,7 +152,7 @@ class Prover:
         rho, r = self._tube(chord)
         d, _ = self._bounds(chord, r)
         kappa = max(self._held(chord, rho, r), self._held(chord, chord.residual, chord.gate))
-        if not (math.isfinite(kappa) and np.isfinite(np.max(d))):
+        if not (math.isfinite(kappa) and np.isfinite(largest(d))):
             return None
         index = index_within(self.curve.jacobian(chord.middle), MARGIN * d + kappa)
         a, b = self._embedding(chord)
@@ -155,7 +162,7 @@ class Prover:
         """Bound rho on F along the chord, and the radius r for which little is asked of J: rho / r + the change of J with r."""
         at_rest, wider = self._bounds(chord, 0.0), self._bounds(chord, chord.r)
         rho = chord.residual + _bend(chord, *at_rest)
-        slope = float(np.max(wider[0]) - np.max(at_rest[0])) / chord.r
+        slope = (largest(wider[0]) - largest(at_rest[0])) / chord.r
         asked = self._held(chord, rho, chord.r) * chord.r
         r = math.sqrt(asked / slope) if slope > 0 and math.isfinite(asked) else chord.r
         return rho, min(max(r, chord.r), max(WIDEST, chord.r))
@@ -187,7 +194,7 @@ class Prover:
         with np.errstate(all="ignore"):
             z = OneBorder(factor(J), f, f, 0.0).solve(np.append(np.zeros_like(f), 1.0))
             left = J @ z[:-1] + z[-1] * f
-        if not (np.isfinite(z).all() and np.isfinite(np.max(d))) or abs(left).max() > 1e-6 * abs(z[-1]) * abs(f).max():
+        if not (np.isfinite(z).all() and np.isfinite(largest(d))) or abs(left).max() > 1e-6 * abs(z[-1]) * abs(f).max():
             return None
         turned = self._turned(chord, z[:-1], rho, d, c)
         if turned is None or not self._compressed(J, f, MARGIN * d + turned[0]):
@@ -197,9 +204,9 @@ class Prover:
     def _turned(self, chord: _Chord, z: Array, rho: float, d: Any, c: Any) -> tuple[float, float] | None:
         """kappa on the plane for which solutions stay within the tube, by doubling it until the bounds close; their distance."""
         a, b = self._embedding(chord)
-        worst, turn = float(np.max(d)), _length(c, z.size)
+        worst, turn = largest(d), _length(c, z.size)
         size = MARGIN * math.sqrt(float(z @ z))
-        mixed = MARGIN * math.sqrt(worst * float(np.sum(d * z * z)))
+        mixed = MARGIN * math.sqrt(worst * form(d, z))
         kappa = max(worst / 8, 1e-300)
         for _ in range(12):
             hold = 1 - size * turn - mixed * turn / kappa
@@ -247,7 +254,7 @@ def _bend(chord: _Chord, d: Any, c: Any) -> float:
     """
     step = chord.step
     u = step[:-1]
-    bent = math.sqrt(float(np.max(d)) * float(np.sum(d * u * u)))
+    bent = math.sqrt(largest(d) * form(d, u))
     bent += abs(float(step[-1])) * _length(c, u.size)
     return MARGIN * bent / 4
 

@@ -143,7 +143,7 @@ class Inspector:
         kinds: set[str] = set()
         for a, b in ((left, middle), (middle, right)):
             piece = self.locator.segment(a, b)
-            spans = self.prover.spans(piece, FINE)
+            spans = self.prover.spans(piece, FINE, hasty=True)
             if all(span.kind == "regular" for span in spans) and float(a.tangent[-1]) * float(b.tangent[-1]) < 0:
                 raise NoConvergence("the load turns on a part without a fold", ())
             if any(span.index not in (None, left.index) for span in spans):

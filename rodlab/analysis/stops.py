@@ -5,8 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from rodlab.analysis.continuation import Step, Walk
+from rodlab.analysis.continuation import Step, Walk, carried
 from rodlab.analysis.curve import Curve, Segment
+from rodlab.analysis.equilibrium import on_its_mesh
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.analysis.touching import root
@@ -16,15 +17,17 @@ from rodlab.numerics.inertia import Inertia
 Within = Mapping[str, tuple[float, float]] | Callable[[Point], Any] | None
 
 LOOKS = 8  # places of a step at which the limits are looked at
+BEGUN = 1e-6  # part of the first step that is still its beginning
 FAR = 1e6  # loads beyond this many times those in question: the branch runs away
 
 
 def piece(a: Point, b: Point) -> Segment:
     """The cubic between two neighbours on a branch; a first point without tangent gets that of the chord."""
-    ya, yb = np.append(a.u, a.lam), np.append(b.u, b.lam)
+    ya, yb = carried(a.equations, b.equations, np.append(a.u, a.lam)), np.append(b.u, b.lam)
     curve = Curve(b.equations)
     chord = (yb - ya) / curve.norm(yb - ya)
-    ta, tb = (chord if p.tangent is None else p.tangent for p in (a, b))
+    ta = chord if a.tangent is None else carried(a.equations, b.equations, a.tangent, direction=True)
+    tb = chord if b.tangent is None else b.tangent
     return Segment(ya, np.asarray(ta), yb, np.asarray(tb), curve.row(chord))
 
 
@@ -51,7 +54,7 @@ def at_load(curve: Curve, segment: Segment, part: float, lam: float, accepted: s
         raise NoConvergence(f"the point at lam = {lam:g} was lost", found.history)
     t = curve.tangent(found.y, segment.derivative(part * segment.length))
     u = found.y[:-1].copy()
-    return Point(curve.equations, lam, u, found.history, found.remaining, t, accepted, known)
+    return on_its_mesh(Point(curve.equations, lam, u, found.history, found.remaining, t, accepted, known))
 
 
 def inside_of(within: Within) -> Callable[[Point], bool]:
@@ -101,6 +104,8 @@ class Stops:
         known = step.point.known_inertia if step.proved and not step.windows else None
         for load, reason in self.loads.items():
             for part in passages(segment, load):
+                if self.steps == 1 and part < BEGUN and load != self.to:
+                    continue  # the first point itself, moved by rounding
                 try:
                     yield part, at_load(curve, segment, part, load, step.point.accepted, known), reason
                     break
@@ -122,18 +127,19 @@ class Stops:
         return part, y
 
     def _closing(self, step: Step) -> Iterator[tuple[float, Point, str]]:
-        segment, curve, start = step.segment, self.walk.curve, self.start
-        sigma = float(segment.row @ (start.y - segment.a))
-        if self.steps < 3 or not 0 < sigma <= segment.length or curve.norm(segment.at(sigma) - start.y) > 0.05 * segment.length:
+        segment, curve, old = step.segment, self.walk.curve, self.equations
+        start, t = carried(old, curve.equations, self.start.y), carried(old, curve.equations, self.start.tangent, direction=True)
+        sigma = float(segment.row @ (start - segment.a))
+        if self.steps < 3 or not 0 < sigma <= segment.length or curve.norm(segment.at(sigma) - start) > 0.05 * segment.length:
             return
         try:
             here = self.walk.locator.place(segment, sigma)
         except NoConvergence:
             return
-        size = max(curve.norm(start.y), 1e-3)
-        if curve.norm(here.y - start.y) <= 1e-8 * size and curve.dot(here.tangent, start.tangent) > 0.9:
-            y = start.y
-            point = Point(self.equations, float(y[-1]), y[:-1].copy(), tangent=here.tangent, accepted=step.point.accepted)
+        size = max(curve.norm(start), 1e-3)
+        if curve.norm(here.y - start) <= 1e-8 * size and curve.dot(here.tangent, t) > 0.9:
+            y = start if old is curve.equations else here.y
+            point = Point(curve.equations, float(y[-1]), y[:-1].copy(), tangent=here.tangent, accepted=step.point.accepted)
             yield sigma / segment.length, point, "closed: back at its first point"
 
     def _leaving(self, step: Step) -> Iterator[tuple[float, Point, str]]:
@@ -157,13 +163,13 @@ class Stops:
 
     def _guessed(self, segment: Segment, part: float) -> Point:
         y = segment.at(part * segment.length)
-        return Point(self.equations, float(y[-1]), y[:-1])
+        return Point(self.walk.curve.equations, float(y[-1]), y[:-1])
 
     def _point(self, segment: Segment, part: float, step: Step, y: Array | None = None) -> Point:
         found = self.walk.curve.correct(segment.at(part * segment.length), segment.row)
         y = found.y if y is None else y
         t = self.walk.curve.tangent(y, segment.derivative(part * segment.length))
         return Point(
-            self.equations, float(y[-1]), y[:-1].copy(), found.history, found.remaining,
+            self.walk.curve.equations, float(y[-1]), y[:-1].copy(), found.history, found.remaining,
             tangent=t, accepted=step.point.accepted,
         )  # fmt: skip

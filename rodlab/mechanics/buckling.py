@@ -1,4 +1,4 @@
-"""Buckling loads of a straight strut: where its second variation is singular [N 2.7, 2.8.1].
+"""Buckling loads of a straight strut or rod: where its second variation is singular [N 2.7, 2.8.1].
 
 At phi = 0 the second variation is D^T k D - lam h W, so that the loads are squared singular values of the bidiagonal matrix
 k^{1/2} D (h W)^{-1/2}: found from its entries, never from the summed tridiagonal one, each keeps its relative accuracy
@@ -16,36 +16,50 @@ from typing import Any
 
 import numpy as np
 
+from rodlab.mechanics.loads import rod_loads
+from rodlab.mechanics.rod import Rod
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import EPS, Array, whole
 from rodlab.numerics.bidiagonal import relative_error, right_vector, singular_value
 from rodlab.numerics.difference import DifferenceForm
 from rodlab.numerics.full import Full
 
+MOST = 2000  # modes of a rod
+
 
 @dataclass(frozen=True, eq=False)
 class Buckling:
     """Loads of the modes `numbers`, ascending, shape (m,), with bounds `error` on their absolute error.
 
-    The error is against the exact loads of this strut's springs (of the discrete model, not of its limit).
+    Of a strut the error is against the exact loads of its springs (of the discrete model, not of its limit), of a rod
+    against those of its differential equation.
     """
 
-    strut: Strut
+    model: "Strut | Rod"
     numbers: tuple[int, ...]
     loads: Array
     error: Array
 
     @cached_property
     def modes(self) -> Array:
-        """Mode shapes (m, n), largest entry 1 in size, first entry positive; computed when asked for, no error estimate."""
-        modes = np.empty((len(self.numbers), self.strut.n))
-        for row, load in zip(modes, self.loads, strict=True):
-            row[:] = mode_shape(self.strut, float(load))
-        return modes
+        """Mode shapes (m, k) at `s`, largest entry 1 in size, first entry positive; computed when asked for, no error estimate."""
+        model = self.model
+        if isinstance(model, Strut):
+            return np.array([mode_shape(model, float(load)) for load in self.loads])
+        return np.array([found.grid.value(found.grid.nodal(found.mode[1:], 0.0), self.s) for found in self._found])
+
+    @cached_property
+    def s(self) -> Array:
+        """Arclength of the modes' entries: a strut's joints, or a rod's nodes for the last of its modes."""
+        return self.model.joints.s if isinstance(self.model, Strut) else self._found[-1].grid.places[1:]
+
+    @cached_property
+    def _found(self) -> list[Any]:
+        return list(rod_loads(self.model, self.numbers)) if isinstance(self.model, Rod) else []
 
 
-def buckling(model: Strut, modes: int | Sequence[int] = 3) -> Buckling:
-    """The first `modes` buckling loads, or those of the mode numbers given; O(n) a mode.
+def buckling(model: "Strut | Rod", modes: int | Sequence[int] = 3) -> Buckling:
+    """The first `modes` buckling loads of a strut or rod, or those of the mode numbers given; O(n) a mode.
 
     Raises `ValueError` unless the model is straight and has so many modes.
 
@@ -53,6 +67,9 @@ def buckling(model: Strut, modes: int | Sequence[int] = 3) -> Buckling:
     >>> b.loads, b.modes.round(3)
     (array([0.38196601, 2.61803399]), array([[ 0.618,  1.   ],
            [ 1.   , -0.618]]))
+    >>> b = buckling(Rod(K="(1 + s)**2"), 1)
+    >>> b.loads.round(9), bool(b.error[0] < 1e-11)
+    (array([3.836376776]), True)
     """
     numbers = mode_numbers(model, modes)
     found = list(buckling_each(model, numbers))
@@ -60,7 +77,7 @@ def buckling(model: Strut, modes: int | Sequence[int] = 3) -> Buckling:
     return Buckling(model, numbers, loads, error)
 
 
-def buckling_loads(model: Strut, modes: int | Sequence[int] = 3) -> Array:
+def buckling_loads(model: "Strut | Rod", modes: int | Sequence[int] = 3) -> Array:
     """The loads of `buckling`.
 
     >>> buckling_loads(Strut(n=1000), 3).round(4)
@@ -71,21 +88,28 @@ def buckling_loads(model: Strut, modes: int | Sequence[int] = 3) -> Array:
 
 def mode_numbers(model: Any, modes: Any) -> tuple[int, ...]:
     """The mode numbers asked for, ascending, checked against the model."""
-    if not isinstance(model, Strut):
-        raise ValueError(f"model must be a Strut; it is {model!r:.60}")
+    if not isinstance(model, (Strut, Rod)):
+        raise ValueError(f"model must be a Strut or a Rod; it is {model!r:.60}")
     if not model.is_straight:
         raise ValueError("model must be straight to buckle: phi0, u_hat and every rest angle zero, no term that bends it")
+    if isinstance(model, Rod) and model.terms:
+        raise ValueError(f"model must have no terms, if it is a rod, for its loads; it has {model.terms!r:.60}")
     asked = range(1, whole("modes", modes, least=1) + 1) if np.ndim(modes) == 0 else modes
     numbers = tuple(sorted({whole("a mode number", j, least=1) for j in asked}))
     if not numbers:
         raise ValueError("modes must name at least one mode; it is empty")
-    if numbers[-1] > model.n:
-        raise ValueError(f"modes must be at most n = {model.n}, the number of joints; it is {numbers[-1]}")
+    most = model.n if isinstance(model, Strut) else MOST
+    if numbers[-1] > most:
+        limit = f"n = {most}, the number of joints" if isinstance(model, Strut) else f"{most}"
+        raise ValueError(f"modes must be at most {limit}; it is {numbers[-1]}")
     return numbers
 
 
-def buckling_each(model: Strut, numbers: Sequence[int]) -> Iterator[tuple[float, float]]:
+def buckling_each(model: "Strut | Rod", numbers: Sequence[int]) -> Iterator[tuple[float, float]]:
     """(load, error) of each mode number in turn, as they are found."""
+    if isinstance(model, Rod):
+        yield from ((found.load, found.error) for found in rod_loads(model, numbers))
+        return
     if model.terms:
         yield from _loads_with_terms(model, numbers)
         return

@@ -134,15 +134,15 @@ def _class_source(d: LinkDerivation) -> str:
     joints = f"x: Array, z: Array{given}"
     energy = f"a: Array, b: Array, x: Array, z: Array, lam: float{given}" if places else angles
     methods = [
-        _method("energy", energy, (d.energy,)),
-        _method("moments", angles, d.moments),
-        _method("stiffness", angles, d.stiffness),
-        _method("moments_lam", angles, d.moments_lam),
+        method("energy", energy, (d.energy,)),
+        method("moments", angles, d.moments),
+        method("stiffness", angles, d.stiffness),
+        method("moments_lam", angles, d.moments_lam),
     ]
-    methods += [_method(f"moments_{name}", angles, known[:2]) for name, known in d.by.items()]
+    methods += [method(f"moments_{name}", angles, known[:2]) for name, known in d.by.items()]
     if places:
-        methods += [_method("forces", joints, d.forces), _method("hardening", joints, d.hardening)]
-        methods += [_method(f"forces_{name}", joints, known[2:]) for name, known in d.by.items()]
+        methods += [method("forces", joints, d.forces), method("hardening", joints, d.hardening)]
+        methods += [method(f"forces_{name}", joints, known[2:]) for name, known in d.by.items()]
     head = (
         f"class {d.name}:\n"
         f'    """e = {d.energy}"""\n\n'
@@ -161,7 +161,8 @@ class KernelPrinter(NumPyPrinter):  # type: ignore[misc]
         return str(super()._print_Add(sympy.Add(*terms, evaluate=False), order="none"))
 
 
-def _method(name: str, arguments: str, results: tuple[Expr, ...]) -> str:
+def method(name: str, arguments: str, results: tuple[Expr, ...]) -> str:
+    """The source of one function of a kernel, common parts computed once."""
     shared, reduced = sympy.cse(results, symbols=(Symbol(f"t{i}") for i in range(1000)), order="none")
     printer = KernelPrinter({"fully_qualified_modules": False})
     lines = [f"        {left} = {printer.doprint(right)}" for left, right in shared]
@@ -187,14 +188,20 @@ Value = Any  # a float or an array (n,): what numpy makes of the parameters give
 
 
 def standard_source() -> str:
-    """The text of `standard.py`: bending and load, with and without rest angles and weights."""
+    """The text of `standard.py`: bending and load, with and without rest angles and weights, and their limits."""
+    from rodlab.mechanics.limit import limit
+
     sums: list[tuple[tuple[Term, ...], bool]] = [((bend,), False) for bend in (BENDING, BENDING_WITH_REST)]
     sums += [((bend, END_LOAD), weighted) for bend in (BENDING, BENDING_WITH_REST) for weighted in (False, True)]
     derivations = [derive(terms, weighted=weighted) for terms, weighted in sums]
     table = "".join(f'    "{d.name}": {d.name},\n' for d in derivations)
     table += "".join(f'    "{d.name}_weighted": {d.name},\n' for d in derivations[:2])  # without load no weight occurs
     classes = "\n\n".join(d.source for d in derivations)
-    return f"{HEADER}\n{classes}\n\nKERNELS: dict[str, Any] = {{\n{table}}}\n"
+    limits = [limit(terms) for terms, weighted in sums if not weighted]
+    densities = "\n\n".join(known.source for known in limits)
+    listed = "".join(f'    "{known.name}": {known.name},\n' for known in limits)
+    kernels = f"KERNELS: dict[str, Any] = {{\n{table}}}\n"
+    return f"{HEADER}\n{classes}\n\n{densities}\n\n{kernels}\nDENSITIES: dict[str, Any] = {{\n{listed}}}\n"
 
 
 if __name__ == "__main__":

@@ -85,6 +85,20 @@ def said_of(arguments: Mapping[str, Any], n: int, terms: Sequence[Term]) -> str:
     return said + (f", terms={tuple(terms)!r}" if terms else "")
 
 
+def rod_recipe_of(arguments: Mapping[str, Any], terms: Sequence[Term]) -> dict[str, Any] | None:
+    """The recipe of a rod's arguments, marked as that of a rod; None where one of them is a function."""
+    recipe = recipe_of(arguments, terms)
+    return None if recipe is None else {"model": "rod", **recipe}
+
+
+def said_of_rod(arguments: Mapping[str, Any], terms: Sequence[Term]) -> str:
+    """A rod's arguments as its repr says them: K, u_hat, and what is not as usual."""
+    usual = {"phi0": 0.0, "degree": 6, "mesh": None, "tol": 1e-10}
+    said = [f"{name}={arguments[name]!r}" for name in ("K", "u_hat")]
+    said += [f"{name}={arguments[name]!r}" for name, value in usual.items() if not np.array_equal(arguments[name], value)]
+    return ", ".join(said) + (f", terms={tuple(terms)!r}" if terms else "")
+
+
 def kept(arguments: Mapping[str, Any]) -> dict[str, Any]:
     """The arguments with arrays copied, so that they stay what they were."""
     return {name: value.copy() if isinstance(value, np.ndarray) else value for name, value in arguments.items()}

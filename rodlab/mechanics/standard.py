@@ -191,6 +191,118 @@ class bending_with_rest_and_end_load_weighted:
         return b - a - beta, 0.0
 
 
+class limit_of_bending:
+    """W = K*p**2/2"""
+
+    parameters = ('K',)
+
+    @staticmethod
+    def energy(p: Array, phi: Array, lam: float, K: Value) -> Value:
+        return (1/2)*K*p**2
+
+    @staticmethod
+    def moments(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return K*p, 0.0
+
+    @staticmethod
+    def stiffness(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value, Value]:
+        return K, 0.0, 0.0
+
+    @staticmethod
+    def moments_lam(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return 0.0, 0.0
+
+    @staticmethod
+    def moments_K(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return p, 0.0
+
+
+class limit_of_bending_with_rest:
+    """W = K*(p - u_hat)**2/2"""
+
+    parameters = ('K', 'u_hat')
+
+    @staticmethod
+    def energy(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> Value:
+        return (1/2)*K*(p - u_hat)**2
+
+    @staticmethod
+    def moments(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return K*(p - u_hat), 0.0
+
+    @staticmethod
+    def stiffness(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value, Value]:
+        return K, 0.0, 0.0
+
+    @staticmethod
+    def moments_lam(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return 0.0, 0.0
+
+    @staticmethod
+    def moments_K(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return p - u_hat, 0.0
+
+    @staticmethod
+    def moments_u_hat(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return -K, 0.0
+
+
+class limit_of_bending_and_end_load:
+    """W = K*p**2/2 + lam*cos(phi)"""
+
+    parameters = ('K',)
+
+    @staticmethod
+    def energy(p: Array, phi: Array, lam: float, K: Value) -> Value:
+        return (1/2)*K*p**2 + lam*cos(phi)
+
+    @staticmethod
+    def moments(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return K*p, -lam*sin(phi)
+
+    @staticmethod
+    def stiffness(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value, Value]:
+        return K, 0.0, -lam*cos(phi)
+
+    @staticmethod
+    def moments_lam(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return 0.0, -sin(phi)
+
+    @staticmethod
+    def moments_K(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return p, 0.0
+
+
+class limit_of_bending_with_rest_and_end_load:
+    """W = K*(p - u_hat)**2/2 + lam*cos(phi)"""
+
+    parameters = ('K', 'u_hat')
+
+    @staticmethod
+    def energy(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> Value:
+        return (1/2)*K*(p - u_hat)**2 + lam*cos(phi)
+
+    @staticmethod
+    def moments(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return K*(p - u_hat), -lam*sin(phi)
+
+    @staticmethod
+    def stiffness(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value, Value]:
+        return K, 0.0, -lam*cos(phi)
+
+    @staticmethod
+    def moments_lam(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return 0.0, -sin(phi)
+
+    @staticmethod
+    def moments_K(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return p - u_hat, 0.0
+
+    @staticmethod
+    def moments_u_hat(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return -K, 0.0
+
+
 KERNELS: dict[str, Any] = {
     "bending": bending,
     "bending_with_rest": bending_with_rest,
@@ -200,4 +312,11 @@ KERNELS: dict[str, Any] = {
     "bending_with_rest_and_end_load_weighted": bending_with_rest_and_end_load_weighted,
     "bending_weighted": bending,
     "bending_with_rest_weighted": bending_with_rest,
+}
+
+DENSITIES: dict[str, Any] = {
+    "limit_of_bending": limit_of_bending,
+    "limit_of_bending_with_rest": limit_of_bending_with_rest,
+    "limit_of_bending_and_end_load": limit_of_bending_and_end_load,
+    "limit_of_bending_with_rest_and_end_load": limit_of_bending_with_rest_and_end_load,
 }

@@ -201,7 +201,7 @@ def _count_by_bisection(d: Array, e: Array, *, closed: bool) -> int:
     scale = max(np.abs(d[1:]).max(initial=0.0), np.abs(e).max(initial=0.0)) or 1.0  # d[0] may carry a huge pivot
     d = np.append(np.clip(d[:1], -1e10 * scale, 1e10 * scale), d[1:]) / scale
     nothing = 4 * TINY if closed else -4 * TINY  # dstebz counts with pivots at least the safe minimum
-    found, *_, info = lapack.dstebz(d, e / scale, 1, -1e300, nothing, 0, 0, 1e300, "B")
+    found, *_, info = lapack.dstebz(d, np.append(e / scale, 0.0)[: max(1, e.size)], 1, -1e300, nothing, 0, 0, 1e300, "B")
     if info != 0:
         raise ArithmeticError(f"dstebz could not count the eigenvalues (info {info}) of a matrix of order {d.size}")
     return int(found)

@@ -1,0 +1,195 @@
+"""Buckling loads of a straight rod for any stiffness K(s): a Sturm-Liouville problem [N 2.8.1].
+
+    -(K w')' = lam w,   w(0) = 0,   K w'(1) = 0          lam_j = ((2j-1) pi/2)^2 for K = 1
+
+Collocated on a mesh that follows sqrt(lam / K), it is the pencil S - lam M. A load is isolated by the index, which rises by one
+at each, found by Rayleigh's quotient iteration, and told as the quotient itself,
+
+    lam = sum h b K w'^2 / sum h b w^2,
+
+sums of positive terms, stationary in w, so that no cancellation touches it however K jumps. Its error is what a companion of
+eight degrees more changes, and rounding. O(N) a mode, N of the order of the mode.
+"""
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.collocated import Collocated
+from rodlab.numerics.collocation import Grid
+
+if TYPE_CHECKING:
+    from rodlab.mechanics.rod import Rod
+
+DEGREE, MORE = 10, 8  # of the polynomials, and of the companion's besides
+PHASE = 1.0  # of a mode, sqrt(lam / K) h, on an interval
+FEWEST = 4  # intervals
+LARGEST = 1e153  # of K and 1/K
+
+
+class Load(NamedTuple):
+    """A buckling load, a bound on its error, and the mode: its grid and nodal values, largest 1, first positive."""
+
+    load: float
+    error: float
+    grid: Grid
+    mode: Array
+
+
+class Pencil:
+    """S - lam M on a grid."""
+
+    def __init__(self, rod: "Rod", mesh: Array, degree: int) -> None:
+        self.rod, self.grid = rod, Grid(mesh, degree)
+        K = rod.profiles["K"]
+        self.K = np.broadcast_to(K.positive(K.at(self.grid.s), self.grid.s), self.grid.s.shape)
+        self.stiff = self.grid.stiff(self.K)
+        self.mass = self.grid.soft(self.grid.hb).reshape(self.stiff.shape)
+
+    @cached_property
+    def companion(self) -> "Pencil":
+        """The same on the same mesh, of eight degrees more."""
+        return Pencil(self.rod, self.grid.mesh, self.grid.degree + MORE)
+
+    def at(self, lam: float) -> Collocated:
+        """S - lam M."""
+        n = self.grid.degree + 1
+        return Collocated((self.stiff - lam * self.mass).reshape(-1, n, n), self.grid.layout)
+
+    def below(self, lam: float) -> tuple[int, int]:
+        """Loads certainly below this one, and those that may be."""
+        known = self.at(lam).inertia()
+        return known.negative, known.negative + known.unclear
+
+    def quotient(self, w: Array) -> tuple[float, float]:
+        """Rayleigh's quotient of w (N m,) and a bound on its rounding."""
+        grid = self.grid
+        Y = grid.nodal(w, 0.0)
+        value, slope = grid.at_gauss(Y)
+        bending, length = float(np.sum(grid.hb * self.K * slope**2)), float(np.sum(grid.hb * value**2))
+        spread = (np.abs(Y[:, 1:] - Y[:, :1]) @ np.abs(grid.slope) + np.abs(Y).max(axis=1, keepdims=True)) / grid.h[:, None]
+        lost = float(np.sum(grid.hb * self.K * np.abs(slope) * spread)) / length
+        return bending / length, EPS * (2 * lost + 8 * grid.degree * bending / length)
+
+    def iterated(self, lam: float, w: Array, sweeps: int) -> tuple[float, float, Array]:
+        """Rayleigh's quotient iteration from a shift: quotient, its rounding, and the vector."""
+        found, rounding = lam, np.inf
+        for _ in range(sweeps):
+            with np.errstate(all="ignore"):
+                w = self.at(lam).factor().solve(self.mass_times(w))
+            size = float(np.abs(w).max())
+            if not (np.isfinite(size) and size > 0):
+                break
+            w = w / size
+            found, rounding = self.quotient(w)
+            change = abs(found - lam)
+            lam = found
+            if change <= max(rounding / 8, 4 * EPS * abs(found)):
+                break
+        return found, rounding, w
+
+    def mass_times(self, w: Array) -> Array:
+        """M w."""
+        n = self.grid.degree + 1
+        return Grid.gathered((self.mass.reshape(-1, n, n) @ self.grid.nodal(w, 0.0)[:, :, None])[:, :, 0])
+
+
+def rod_loads(rod: "Rod", numbers: Sequence[int]) -> Iterator[Load]:
+    """The loads of these mode numbers, ascending, as they are found. Raises `ValueError` for a K out of range."""
+    pencil = Pencil(rod, _first_mesh(rod), DEGREE)
+    known: list[tuple[int, float]] = [(0, 0.0)]
+    for j in numbers:
+        guess = _guess(rod, j, known)
+        low = high = guess
+        while True:
+            finer = _resolving(pencil, max(high, guess))
+            if finer is not None:
+                pencil, low = Pencil(rod, finer, DEGREE), high
+            elif high > low:
+                break
+            else:
+                low, high = _isolated(pencil, j, guess)
+                guess = (low + high) / 2
+        found = _found(pencil, j, low, high)
+        known.append((j, found.load))
+        yield found
+
+
+def _found(pencil: Pencil, j: int, low: float, high: float) -> Load:
+    """Load j between bounds that hold it alone."""
+    w = np.sin(np.linspace(0.3, 1.7 * j + 2, pencil.grid.N * DEGREE)) + 0.5
+    load, rounding, w = pencil.iterated((low + high) / 2, w, 40)
+    for _ in range(60):
+        if low <= load <= high:
+            break
+        low, high = _narrowed(pencil, j, low, high)  # the iteration left for a neighbour
+        load, rounding, w = pencil.iterated((low + high) / 2, w, 40)
+    fine = pencil.companion
+    better, finest, v = fine.iterated(load, pencil.grid.onto(pencil.grid.nodal(w, 0.0), fine.grid), 3)
+    mode = np.append(0.0, v)
+    mode /= np.sign(mode[np.flatnonzero(mode)[0]]) * float(np.abs(mode).max())
+    return Load(better, 2 * abs(better - load) + rounding + finest, fine.grid, mode)
+
+
+def _first_mesh(rod: "Rod") -> Array:
+    K = rod.parameters["K"]
+    if not (float(np.max(K)) < LARGEST and float(np.min(K)) > 1 / LARGEST):
+        raise ValueError(f"K must lie between 1e-153 and 1e153 for loads; it reaches {float(np.max(K)):g}")
+    return np.union1d(rod.mesh, np.linspace(0, 1, FEWEST + 1)) if rod.adapts else rod.mesh
+
+
+def _guess(rod: "Rod", j: int, known: list[tuple[int, float]]) -> float:
+    """By the waves of the modes before, else by the phase that sqrt(lam / K) must run through."""
+    if len(known) > 2:
+        (i, a), (k, b) = known[-2:]
+        return float((np.sqrt(b) + (np.sqrt(b) - np.sqrt(a)) / (k - i) * (j - k)) ** 2)
+    K = np.broadcast_to(rod.parameters["K"], rod.grid.s.shape)
+    return float(((j - 0.5) * np.pi / np.sum(rod.grid.hb / np.sqrt(K))) ** 2)
+
+
+def _isolated(pencil: Pencil, j: int, guess: float) -> tuple[float, float]:
+    """Bounds around load j: j - 1 loads are certainly below the one, j below the other, and no more."""
+    low, high = guess * (1 - 0.5 / j), guess * (1 + 0.5 / j)
+    at_low, at_high = pencil.below(low), pencil.below(high)
+    while at_low[1] >= j:
+        high, at_high = (low, at_low) if at_low[0] >= j else (high, at_high)
+        low /= 1 + 1 / j if j > 2 else 2
+        at_low = pencil.below(low)
+    while at_high[0] < j:
+        low, at_low = (high, at_high) if at_high[1] < j else (low, at_low)
+        high *= 1 + 1 / j if j > 2 else 2
+        at_high = pencil.below(high)
+        if not np.isfinite(high):
+            raise ValueError(f"modes must be fewer: this mesh has no mode {j}")
+    while at_low != (j - 1, j - 1) or at_high != (j, j):
+        before = low, high
+        low, high = _narrowed(pencil, j, low, high)
+        at_low, at_high = pencil.below(low), pencil.below(high)
+        if (low, high) == before or high - low < 1e-12 * high:
+            raise ArithmeticError(f"load {j} cannot be told from its neighbours near {high:.9g}")
+    return low, high
+
+
+def _narrowed(pencil: Pencil, j: int, low: float, high: float) -> tuple[float, float]:
+    """One bisection; a middle that is too near the load to tell is avoided."""
+    for part in (0.5, 0.4, 0.65):
+        middle = low + part * (high - low)
+        sure, maybe = pencil.below(middle)
+        if maybe < j:
+            return middle, high
+        if sure >= j:
+            return low, middle
+    return low, high
+
+
+def _resolving(pencil: Pencil, lam: float) -> Array | None:
+    """A mesh on whose intervals a mode turns by no more than PHASE; None where the pencil's own will do."""
+    mesh = pencil.grid.mesh
+    phase = np.diff(mesh) * np.sqrt(lam / pencil.K.min(axis=1))
+    if phase.max() <= PHASE:
+        return None
+    parts = np.ceil(1.2 * phase / PHASE).astype(int).clip(1, 1000)
+    return np.append(np.concatenate([np.linspace(a, b, n + 1)[:-1] for a, b, n in zip(mesh, mesh[1:], parts, strict=False)]), 1.0)

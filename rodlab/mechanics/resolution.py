@@ -1,0 +1,275 @@
+"""How well a mesh serves, told by the companion: the same mesh with polynomials of twice the degree.
+
+    corrected    Newton's method on the companion from the rod's own solution; what it changes is the error, as the companion's
+                 own, of twice the order, is far smaller. Residuals in the longest float, lest rounding be taken for error
+    e_i          what interval i contributes: the moments that it misses at its ends, when its inside is solved by the companion,
+                 times how far such a moment turns the rod there (the diagonal of the inverse of the second variation)
+    g_i          and what it misses of its second variation, condensed to its ends, per unit of load: of this depend
+                 tangents, index and branch points. Not asked for where the load stiffens
+
+A mesh serves while the sum of all e_i + g_i is below KEEP tol; a new one is made for AIM tol [Ascher, Mattheij, Russell, 9].
+"""
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from rodlab.mechanics import rod_bounds
+from rodlab.mechanics.profile import Profile
+from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.collocated import BandFactor, Collocated, Condensed
+from rodlab.numerics.collocation import Grid
+from rodlab.numerics.inertia import Inertia
+from rodlab.numerics.mesh import equidistributed
+from rodlab.numerics.nullspace import quadratic
+from rodlab.numerics.pieces import smooth_pieces
+from rodlab.numerics.slack import largest
+
+if TYPE_CHECKING:
+    from rodlab.mechanics.rod import Rod
+
+KEEP, AIM = 3e-3, 3e-4  # of tol, and of the largest angle where that is small
+SMALLEST = 1e-2  # an angle counted as small at most
+SAME = 1e-4  # relative difference of loads at which two meshes are compared
+SPARE = 1e-3  # of AIM tol: below it a coarser mesh is tried
+FEWER = 0.6  # of the intervals: a coarser mesh is worth its while
+FAR = 0.5  # a correction of the angles, in radians, that tells nothing but that the mesh is too coarse
+FINE = 1e-10  # to which a guess is represented
+HALVED = 512  # intervals of a mesh that is halved throughout, at most
+CHORD = 1e-8  # a correction of the angles after which the companion's derivative is as it was
+CANCEL = 1e-3  # part of the sum of all errors that is counted even where they cancel
+SAFE = 2.0  # on what the companion changes
+RESOLVED = 0.9 * np.pi**2  # of h^2 lam cos(phi) / K: an interval by itself, its ends held, is stable
+
+
+class Corrected(NamedTuple):
+    """The companion's solution next to one of the rod: unknowns, the two steps of Newton's method, and its derivative."""
+
+    rod: "Rod"
+    u: Array
+    first: Array
+    second: Array
+    matrix: Collocated
+    factor: BandFactor
+
+
+def companion_of(rod: "Rod", u: Array, lam: float) -> Corrected:
+    """The companion's solution; kept for the last u that was asked for."""
+    last: Any = rod.__dict__.get("last_corrected")
+    if last is not None and last[1] == lam and np.array_equal(last[0], u):
+        known: Corrected = last[2]
+        return known
+    fine = rod.companion
+    v = fine.moved(rod, u)
+    matrix = fine.jacobian(v, lam)
+    factor = matrix.factor()
+    with np.errstate(all="ignore"):
+        first = factor.solve(-fine.residual_wide(v, lam))
+        if float(np.abs(first).max()) > CHORD and np.isfinite(first).all():  # else the same factor serves again
+            matrix = fine.jacobian(v + first, lam)
+            factor = matrix.factor()
+        second = factor.solve(-fine.residual_wide(v + first, lam))
+    known = Corrected(fine, v + first + second, first, second, matrix, factor)
+    rod.__dict__["last_corrected"] = (u, lam, known)
+    return known
+
+
+def corrected(rod: "Rod", u: Array, lam: float) -> tuple["Rod", Array]:
+    """The companion and its solution, or the rod's own where that could not be reached."""
+    known = companion_of(rod, u, lam)
+    settled = float(np.abs(known.second).max()) <= max(0.1 * float(np.abs(known.first).max()), 1e-9)
+    return (known.rod, known.u) if settled else (rod, u)
+
+
+# --- what a point asks ---------------------------------------------------------------------------------------------
+
+
+def tip_error(rod: "Rod", u: Array, lam: float, remaining: float) -> float:
+    """Estimate from above of the tip angle's error: of the mesh, of Newton's method, and of rounding."""
+    known = companion_of(rod, u, lam)
+    unit = np.zeros_like(known.u)
+    unit[-1] = 1.0
+    with np.errstate(all="ignore"):
+        adjoint = known.factor.solve(unit)
+        rounded = rod_bounds.WIDE + (EPS if rod.varies else 0.0)  # a profile's values are doubles
+        noise = rod_bounds.rounding(known.rod, known.u, lam, adjoint, rounded)
+        left = float(abs(known.second[-1]) + np.abs(known.second).max() ** 2 * np.abs(adjoint).sum())
+        total = SAFE * (abs(float(known.u[-1] - u[-1])) + left) + noise + 2 * EPS * abs(float(u[-1])) + 0 * remaining
+    return total if np.isfinite(total) else np.inf
+
+
+def missed(rod: "Rod", u: Array, lam: float, v: Array) -> tuple[float, float]:
+    """How much the mesh misses of v . F and of v . J v, by the companion: what moves folds and branch points.
+
+    Where v is a null vector both are stationary, so that u and v need not be those of the companion.
+    """
+    fine = rod.companion
+    w, finer = fine.moved(rod, v, direction=True), fine.moved(rod, u)
+    force = float(w @ fine.residual_wide(finer, lam)) - float(v @ rod.residual_wide(u, lam))
+    stiffness = quadratic(fine.jacobian(finer, lam), w)[0] - quadratic(rod.jacobian(u, lam), v)[0]
+    return SAFE * abs(force), SAFE * abs(stiffness)
+
+
+def inertia(rod: "Rod", u: Array, lam: float, remaining: float) -> Inertia:
+    """That of the second variation, verified where mesh and companion have it in common and every interval is resolved."""
+    known = companion_of(rod, u, lam)
+    with np.errstate(all="ignore"):
+        off = float(np.abs(known.second).max()) + 4 * EPS * float(np.abs(known.u).max(initial=0.0)) + 0 * remaining
+    if not np.isfinite(off):
+        return Inertia(0, rod.size, 0)
+    fine = known.rod.jacobian(known.u, lam).inertia(_slack(known.rod, known.u, lam, off))
+    own = rod.jacobian(u, lam).inertia()
+    low, high = min(own.negative, fine.negative), max(own.negative + own.unclear, fine.negative + fine.unclear)
+    if low == high and _resolved(rod, u, lam):
+        return Inertia(low, 0, rod.size - low)
+    high = max(high, low + 1)
+    return Inertia(low, high - low, max(rod.size - high, 0))
+
+
+def _slack(rod: "Rod", u: Array, lam: float, off: float) -> Any:
+    slack = rod.lipschitz(u, lam)(off, 0.0)[0]
+    return slack if np.isfinite(largest(slack)) else off * abs(lam)
+
+
+def _softening(rod: "Rod", u: Array, lam: float) -> Array:
+    """How much the load softens at Gauss's points: -W_phiphi, (N, m)."""
+    W, grid = rod.kernel(lam), rod.grid
+    angle, slope = grid.at_gauss(grid.nodal(u, rod.phi0))
+    soft = W.stiffness(slope, angle, lam, **rod.given(W))[2]
+    return -np.broadcast_to(soft, angle.shape)
+
+
+def _resolved(rod: "Rod", u: Array, lam: float) -> bool:
+    K = np.broadcast_to(rod.parameters["K"], rod.grid.s.shape).min(axis=1)
+    return bool((np.diff(rod.mesh) ** 2 * _softening(rod, u, lam).max(axis=1) < RESOLVED * K).all())
+
+
+# --- meshes ----------------------------------------------------------------------------------------------------------
+
+
+def adapted(rod: "Rod", u: Array, lam: float, tangent: Array | None) -> "tuple[Rod, Array, Array | None] | None":
+    """The rod on a better mesh with u (no longer an exact solution there) and tangent on it; None where its mesh serves."""
+    if not rod.adapts:
+        return None
+    known = companion_of(rod, u, lam)
+    with np.errstate(all="ignore"):
+        change = float(np.abs(known.first + known.second).max())
+        settled = change < FAR and float(np.abs(known.second).max()) <= max(0.25 * change, 1e-9, _noise(known, lam))
+    if not settled and rod.grid.N > HALVED:
+        return None  # what a finer mesh would not mend: the error of a point tells
+    if not settled:
+        return _on(rod, rod, u, _halved(rod.mesh), tangent)
+    errors = _errors(rod, u, lam, known) / min(max(float(np.abs(known.u).max()), SMALLEST), 1.0)
+    total = float(errors.sum())
+    if abs(lam - rod.expected[0]) <= SAME * abs(lam) and total > rod.expected[1]:
+        rod.stuck = 100 * total  # the last mesh was no better here: rounding, which the error of a point tells
+    if total <= rod.stuck:
+        return None
+    if AIM * SPARE * rod.tol < total <= KEEP * rod.tol:
+        return None
+    mesh = equidistributed(rod.mesh, errors, AIM * rod.tol, 2 * rod.degree + 1, rod.breaks)
+    if total <= KEEP * rod.tol and mesh.size - 1 > FEWER * rod.grid.N:
+        return None
+    if total > KEEP * rod.tol and mesh.size <= rod.mesh.size and np.array_equal(mesh, rod.mesh):
+        mesh = _halved(rod.mesh)
+    return _on(rod, known.rod, known.u, mesh, tangent, (lam, total / 2 if total > KEEP * rod.tol else np.inf))
+
+
+def suited(rod: "Rod", guess: Any, finer: int) -> "Rod":
+    """The rod on a mesh on which a guess, a function of s, can be represented, halved so many times."""
+    if not (rod.adapts and callable(guess)):
+        return rod
+    pieces, _ = smooth_pieces(Profile("guess", guess).at, np.array([0.0, *rod.breaks, 1.0]), FINE, 2 * rod.degree)
+    mesh = np.union1d(rod.mesh, _halved(pieces)) if pieces.size > rod.breaks.size + 2 else rod.mesh
+    for _ in range(finer):
+        mesh = _halved(mesh)
+    return rod if mesh is rod.mesh else rod.on(mesh)
+
+
+def _halved(mesh: Array) -> Array:
+    return np.union1d(mesh, (mesh[1:] + mesh[:-1]) / 2)
+
+
+def _on(
+    rod: "Rod", source: "Rod", v: Array, mesh: Array, tangent: Array | None, expected: tuple[float, float] = (0.0, np.inf)
+) -> "tuple[Rod, Array, Array | None]":
+    other = rod.on(mesh)
+    other.expected = expected
+    if tangent is None:
+        return other, other.moved(source, v), None
+    t = other.moved(rod, tangent[:-1], direction=True)
+    return other, other.moved(source, v), np.append(t, tangent[-1])
+
+
+def _errors(rod: "Rod", u: Array, lam: float, known: Corrected) -> Array:
+    """What each interval contributes to the error, (N,)."""
+    fine, N = known.rod, rod.grid.N
+    matrix = rod.jacobian(u, lam)
+    ends, own_ends = known.matrix.condensed(), matrix.condensed()
+    own, tested = rod.tested(u, lam, rod.grid.wide), fine.tested(fine.moved(rod, u), lam, fine.grid.wide)
+    missed = np.asarray(np.abs(_at_ends(tested, ends) - _at_ends(own, own_ends)), dtype=np.float64)
+    turn = _diagonal_of_inverse(ends.S)
+    errors = missed[:, 0] * np.append(0.0, turn[:-1]) + missed[:, 1] * turn
+    rest = matrix.factor().solve(-np.asarray(Grid.gathered(own), dtype=np.float64))  # what Newton's method left undone
+    change = (known.first + known.second).reshape(N, -1)[:, -1] - rest.reshape(N, -1)[:, -1]
+    seen, total = float(np.abs(change).max()), float(errors.sum())
+    errors = errors * max(seen / total, CANCEL) if total > 0 else np.full(N, seen / N)
+    if seen <= _noise(known, lam):  # no mesh does better
+        errors *= min(1.0, 0.5 * KEEP * rod.tol / max(float(errors.sum()), 1e-300))
+    return np.asarray(errors + _missed_stiffness(rod, u, lam, matrix, np.abs(own_ends.S - ends.S)[:, 0, 1]))
+
+
+def _noise(known: Corrected, lam: float) -> float:
+    """How far rounding alone can move the companion's angles: its answer to noise of random signs, and a margin."""
+    size = rod_bounds.sizes(known.rod, known.u, lam)
+    signs = np.where(np.sin(1.0 + 7.0 * np.arange(size.size) ** 2) > 0, 1.0, -1.0)
+    return 16 * rod_bounds.WIDE * float(np.abs(known.factor.solve(signs * size)).max())
+
+
+def _at_ends(tested: Any, condensed: Condensed) -> Array:
+    """Moments at the ends of the intervals, (N, 2), their inner nodes brought into balance."""
+    inner = np.asarray(tested[:, 1:-1], dtype=np.float64)
+    return np.asarray(tested[:, [0, -1]] - (inner[:, None, :] @ condensed.F)[:, 0])
+
+
+def _missed_stiffness(rod: "Rod", u: Array, lam: float, matrix: Collocated, change: Array) -> Array:
+    """What a coupling (N,) of the ends misses per unit of load, beyond its rounding, where the load softens."""
+    noise = 32 * rod.degree * EPS * np.abs(matrix.blocks[:, 0]).sum(axis=1)
+    soft = _softening(rod, u, lam).max(axis=1) > 0
+    return np.asarray(np.where(soft, np.maximum(change - noise, 0.0), 0.0) / max(abs(lam), 1 / rod.compliance[0]))
+
+
+def _diagonal_of_inverse(ends: Array) -> Array:
+    """|diagonal| of the inverse of the condensed second variation, (N,): by its pivots from both ends."""
+    d, e = ends[:, 1, 1].copy(), ends[1:, 0, 1]
+    d[:-1] += ends[1:, 0, 0]
+    below, above = _pivots(d, e), _pivots(d[::-1], e[::-1])[::-1]
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.minimum(1 / np.abs(below + above - d), 1e6 / float(np.abs(d).min() or 1.0)))
+
+
+def _pivots(d: Array, e: Array) -> Array:
+    pivots = np.empty_like(d)
+    last = np.inf
+    for i, (x, y) in enumerate(zip(d.tolist(), [0.0, *(e * e).tolist()], strict=True)):
+        last = pivots[i] = x - y / last or EPS * x
+    return pivots
+
+
+def between(rod: "Rod", u: Array, s: Array) -> tuple[Array, Array, Array]:
+    """phi, x, z at arclengths s (k,): the polynomials, and their sine and cosine integrated from the last mesh point."""
+    grid = rod.grid
+    Y = grid.nodal(u, rod.phi0)
+    x, z = (f.reshape(grid.N, -1)[:, -1] for f in (f[1:] for f in rod.shape(u)))
+    i = np.clip(np.searchsorted(grid.mesh, s, side="left") - 1, 0, grid.N - 1)
+    start = grid.mesh[i]
+    inner = start[:, None] + (s - start)[:, None] * grid.basis.c
+    angle = np.stack([grid.value(Y, column) for column in inner.T], axis=1)
+    weight = (s - start)[:, None] * grid.basis.b
+    foot = [np.append(0.0, place[:-1])[i] for place in (x, z)]
+    return grid.value(Y, s), foot[0] + np.sum(weight * np.sin(angle), axis=1), foot[1] + np.sum(weight * np.cos(angle), axis=1)
+
+
+def slopes(rod: "Rod", u: Array) -> tuple[Array, Array]:
+    """s and phi' at Gauss's points, (N m,)."""
+    return rod.grid.s.ravel(), rod.grid.at_gauss(Grid.nodal(rod.grid, u, rod.phi0))[1].ravel()
