@@ -424,7 +424,7 @@ def test_files_that_are_no_branches_get_a_sentence(tmp_path):
         "later.json": json.dumps({**record, "schema": 99}),
         "headless.json": json.dumps({**record, "points": []}),
         "short.json": json.dumps({**record, "arrays": {**record["arrays"], "u": record["arrays"]["u"][:1]}}),
-        "recipe.json": json.dumps({**record, "recipe": {"k": "x"}}),
+        "recipe.json": json.dumps({**record, "recipes": [{"k": "x"}]}),
         "bad.npz": "PK not really",
     }
     for name, content in cases.items():

@@ -45,18 +45,27 @@ def equilibrium(model: Equations, lam: float, guess: Any = None, *, limit: int =
         raise last
     model, u, run = first
     root = downhill(model, lam, u, run)
-    return on_its_mesh(Point(model, lam, root.u, (*last.history, *root.history), root.remaining))
+    return on_its_mesh(Point(model, lam, root.u, (*last.history, *root.history), root.remaining), down=True)
 
 
-def on_its_mesh(p: Point) -> Point:
-    """The same solution on a mesh that serves, where the model adapts one; else p itself. Raises `NoConvergence`."""
+def on_its_mesh(p: Point, *, down: bool = False) -> Point:
+    """The same solution on a mesh that serves, where the model adapts one; else p itself. Raises `NoConvergence`.
+
+    down: where Newton's method fails on a better mesh, go down the energy there too.
+    """
     for _ in range(MESHES):
         adapted = getattr(p.equations, "adapted", None)
         better = None if adapted is None else adapted(p.u, p.lam, p.tangent)
         if better is None:
             break
         model, u, tangent = better
-        root = Newton.at(model, p.lam).solve(u)
+        run = Newton.at(model, p.lam)
+        try:
+            root = run.solve(u)
+        except NoConvergence:
+            if not down:
+                raise
+            root = downhill(model, p.lam, u, run)
         history = (*p.newton, *root.history)
         p = replace(p, equations=model, u=root.u, newton=history, remaining=root.remaining, tangent=tangent)
     return p

@@ -1,7 +1,8 @@
 """Branches as files: JSON to be read by anything, npz for long ones; both whole or not at all, and never pickled.
 
 One record, two dresses. Arrays: lam (m,), u (m, n), tangent (m, n + 1) and, for each event, its own and the fence around it,
-so that a branch that was read can be extended and switched from like the one that was followed.
+so that a branch that was read can be extended and switched from like the one that was followed. Where meshes differ along the
+branch, u and tangent are laid end to end, `sizes` (m,) long, and each point names the recipe of its own equations.
 """
 
 import io
@@ -24,7 +25,7 @@ from rodlab.numerics.arrays import Array
 from rodlab.numerics.inertia import Inertia
 from rodlab.version import __version__
 
-SCHEMA = 1
+SCHEMA = 2
 SUFFIXES = (".json", ".npz")
 
 
@@ -64,17 +65,16 @@ def load(path: Any, model: Equations | None, rebuild: Callable[[Mapping[str, Any
     try:
         if record["schema"] != SCHEMA:
             raise ValueError(f"{path} has schema {record['schema']}; this rodlab reads {SCHEMA}")
-        if model is None and record["recipe"] is not None:
-            model = rebuild(record["recipe"])
-        equations = Recorded(str(record["model"])) if model is None else model
-        points = [_point(equations, entry, i, arrays) for i, entry in enumerate(record["points"])]
-        events = [_event(equations, entry, i, arrays, points) for i, entry in enumerate(record["events"])]
+        models = _equations(record, model, rebuild)
+        ends = np.cumsum(arrays["sizes"]).astype(int)
+        points = [_point(models[entry["model"]], entry, i, arrays, ends) for i, entry in enumerate(record["points"])]
+        events = [_event(models[entry["model"]], entry, i, arrays, points) for i, entry in enumerate(record["events"])]
     except (KeyError, IndexError, TypeError) as error:
         raise ValueError(f"{path} is not a whole branch: {error!r}") from None
     if not points or not events:
         raise ValueError(f"{path} is not a whole branch: it has no points or no end")
-    if model is not None:
-        _solves(model, points, path)
+    if not isinstance(models[0], Recorded):
+        _solves(points, path)
     return Branch(points, events)
 
 
@@ -91,11 +91,12 @@ def place(path: Any) -> Path:
 
 def _record(branch: Branch) -> tuple[dict[str, Any], dict[str, Array]]:
     points = branch.points
-    model = points[0].equations
+    model, models = points[0].equations, _models(branch)
     arrays = {
         "lam": branch.lam,
-        "u": np.array([p.u for p in points]),
-        "tangent": np.array([np.zeros(p.u.size + 1) if p.tangent is None else p.tangent for p in points]),
+        "sizes": np.array([p.u.size for p in points], dtype=np.float64),
+        "u": np.concatenate([p.u for p in points]),
+        "tangent": np.concatenate([np.zeros(p.u.size + 1) if p.tangent is None else p.tangent for p in points]),
     }
     for i, e in enumerate(branch.events):
         arrays[f"event{i}_y"] = np.append(e.point.u, e.point.lam)
@@ -107,18 +108,32 @@ def _record(branch: Branch) -> tuple[dict[str, Any], dict[str, Array]]:
             arrays[f"event{i}_fence"] = np.array([e.fence.a, e.fence.ta, e.fence.b, e.fence.tb, e.fence.row])
     record = {
         "schema": SCHEMA, "rodlab": __version__, "what": "branch", "model": repr(model),
-        "recipe": getattr(model, "recipe", None),
-        "points": [_said(p) for p in points],
+        "recipes": [getattr(own, "recipe", None) for own in models],
+        "meshes": [None if getattr(own, "mesh", None) is None else np.asarray(own.mesh).tolist() for own in models],
+        "points": [{**_said(p), "model": _place(models, p)} for p in points],
         "events": [
             {
                 "kind": e.kind, "lam": e.lam, "error": e.error if np.isfinite(e.error) else None, "multiplicity": e.multiplicity,
                 "reason": e.reason, "converged": e.converged, "where": e.where, "measures": _measures(e.point),
-                "accepted": e.point.accepted,
+                "accepted": e.point.accepted, "model": _place(models, e.point),
             }
             for e in branch.events
         ],
     }  # fmt: skip
     return record, arrays
+
+
+def _models(branch: Branch) -> list[Any]:
+    """The equations of all points and events, each once."""
+    models: list[Any] = []
+    for p in [*branch.points, *(e.point for e in branch.events)]:
+        if not any(own is p.equations for own in models):
+            models.append(p.equations)
+    return models
+
+
+def _place(models: list[Any], p: Point) -> int:
+    return next(i for i, own in enumerate(models) if own is p.equations)
 
 
 def _said(p: Point) -> dict[str, Any]:
@@ -153,11 +168,21 @@ def _opened(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
         raise ValueError(f"{path} is not a branch that rodlab saved: {str(error)[:80]}") from None
 
 
-def _point(equations: Any, entry: Mapping[str, Any], i: int, arrays: Mapping[str, Array]) -> Point:
+def _equations(record: Mapping[str, Any], model: Any, rebuild: Callable[[Mapping[str, Any]], Equations]) -> list[Any]:
+    """The equations that the file's points name: the model given, on the recorded meshes if it has any, or made from recipes."""
+    recipes = record["recipes"]
+    if model is not None:
+        on = getattr(model, "on_points", None)
+        return [model if on is None or mesh is None else on(mesh) for mesh in record["meshes"]]
+    return [Recorded(str(record["model"])) if recipe is None else rebuild(recipe) for recipe in recipes]
+
+
+def _point(equations: Any, entry: Mapping[str, Any], i: int, arrays: Mapping[str, Array], ends: Any) -> Point:
     inertia = None if entry["inertia"] is None else Inertia(*entry["inertia"])
-    tangent = arrays["tangent"][i] if entry["tangent"] else None
+    stop, size = int(ends[i]), int(arrays["sizes"][i])
+    tangent = np.array(arrays["tangent"][stop - size + i : stop + i + 1]) if entry["tangent"] else None
     return Point(
-        equations, float(arrays["lam"][i]), np.array(arrays["u"][i]), (), float(entry["remaining"]), tangent,
+        equations, float(arrays["lam"][i]), np.array(arrays["u"][stop - size : stop]), (), float(entry["remaining"]), tangent,
         str(entry["accepted"]), inertia, dict(entry["measures"]) if isinstance(equations, Recorded) else None,
     )  # fmt: skip
 
@@ -177,11 +202,11 @@ def _event(equations: Any, entry: Mapping[str, Any], i: int, arrays: Mapping[str
     )  # fmt: skip
 
 
-def _solves(model: Equations, points: list[Point], path: Any) -> None:
+def _solves(points: list[Point], path: Any) -> None:
     """Raise unless Newton's method, from the first and the last point, stays there."""
     for p in (points[0], points[-1]):
         try:
-            root = Newton.at(model, p.lam, 20).solve(p.u)
+            root = Newton.at(p.equations, p.lam, 20).solve(p.u)
             off = float(np.abs(root.u - p.u).max(initial=0.0))
         except (NoConvergence, ValueError, ArithmeticError) as error:
             raise ValueError(f"{path} does not hold solutions of this model: {error}") from None

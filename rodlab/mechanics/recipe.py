@@ -2,6 +2,7 @@
 
 {"n": 100, "u_hat": 0.01, "terms": {"self_weight": {"q": 2.0}}}        a Strut
 {"k": [1, 1], "beta": [0.1, 0]}                                        Strut.from_joints
+{"model": "rod", "K": "1 + s", "degree": 6}                            a Rod; with "points" on that mesh
 {..., "vary": "u_hat", "lam": 5.0}                                     the same, followed in u_hat at a load
 """
 
@@ -14,38 +15,58 @@ import numpy as np
 from rodlab.mechanics.terms import Term, end_torque, foundation, self_weight
 
 if TYPE_CHECKING:
+    from rodlab.mechanics.rod import Rod
     from rodlab.mechanics.strut import Strut
     from rodlab.mechanics.varied import VariedStrut
+    from rodlab.mechanics.varied_rod import VariedRod
 
 TERMS: dict[str, Callable[..., Term]] = {"self_weight": self_weight, "foundation": foundation, "end_torque": end_torque}
 BY_RULE = ("n", "K", "u_hat", "rule", "phi0", "breaks")
 BY_JOINT = ("k", "beta", "h", "beta0", "weights")
+OF_ROD = ("K", "u_hat", "phi0", "breaks", "degree", "mesh", "tol", "points")
 
 
-def build(recipe: Mapping[str, Any]) -> "Strut | VariedStrut":
+def build(recipe: Mapping[str, Any]) -> "Strut | Rod | VariedStrut | VariedRod":
     """The model of a recipe; `ValueError`, in one sentence, for what is none.
 
     >>> build({"n": 3, "terms": {"self_weight": {"q": 2.0}}})
     Strut(n=3, K=1.0, u_hat=0.0, rule='end', terms=(self_weight(q=2.0),))
+    >>> build({"model": "rod", "u_hat": 0.5})
+    Rod(K=1.0, u_hat=0.5)
     """
-    from rodlab.mechanics.strut import Strut
-
     given = dict(recipe)
-    vary, lam = given.pop("vary", None), given.pop("lam", None)
+    kind, vary, lam = given.pop("model", "strut"), given.pop("vary", None), given.pop("lam", None)
+    if kind not in ("strut", "rod"):
+        raise ValueError(f"model must be 'strut' or 'rod'; it is {kind!r}")
     terms = tuple(_term(name, parameters) for name, parameters in _table("terms", given.pop("terms", {})).items())
-    joints = "k" in given
-    unknown = [name for name in given if name not in (BY_JOINT if joints else BY_RULE)]
+    joints = kind == "strut" and "k" in given
+    known = OF_ROD if kind == "rod" else BY_JOINT if joints else BY_RULE
+    unknown = [name for name in given if name not in known]
     if unknown:
-        allowed = ", ".join([*(BY_JOINT if joints else BY_RULE), "terms", "vary", "lam"])
+        allowed = ", ".join(["model", *known, "terms", "vary", "lam"])
         raise ValueError(f"a model must be made of {allowed}; {unknown[0]} is none of these")
-    strut = Strut.from_joints(**given, terms=terms) if joints else Strut(**given, terms=terms)
+    model = _rod(given, terms) if kind == "rod" else _strut(given, terms, joints=joints)
     if vary is None:
         if lam is not None:
             raise ValueError("lam must be given in a model only with vary, the name of the parameter that is followed")
-        return strut
+        return model
     if lam is None:
         raise ValueError(f"lam must be given where {vary} is followed: the load that stays")
-    return strut.vary(vary, lam)
+    return model.vary(vary, lam)
+
+
+def _strut(given: Mapping[str, Any], terms: tuple[Term, ...], *, joints: bool) -> "Strut":
+    from rodlab.mechanics.strut import Strut
+
+    return Strut.from_joints(**given, terms=terms) if joints else Strut(**given, terms=terms)
+
+
+def _rod(given: dict[str, Any], terms: tuple[Term, ...]) -> "Rod":
+    from rodlab.mechanics.rod import Rod
+
+    points = given.pop("points", None)
+    rod = Rod(**given, terms=terms)
+    return rod if points is None else rod.on_points(points)
 
 
 def recipe_of(arguments: Mapping[str, Any], terms: Sequence[Term]) -> dict[str, Any] | None:

@@ -35,6 +35,7 @@ SPARE = 1e-3  # of AIM tol: below it a coarser mesh is tried
 FEWER = 0.6  # of the intervals: a coarser mesh is worth its while
 FAR = 0.5  # a correction of the angles, in radians, that tells nothing but that the mesh is too coarse
 FINE = 1e-10  # to which a guess is represented
+ROUNDED = 1e-6  # errors that may be rounding and no longer fall
 HALVED = 512  # intervals of a mesh that is halved throughout, at most
 CHORD = 1e-8  # a correction of the angles after which the companion's derivative is as it was
 CANCEL = 1e-3  # part of the sum of all errors that is counted even where they cancel
@@ -161,7 +162,7 @@ def adapted(rod: "Rod", u: Array, lam: float, tangent: Array | None) -> "tuple[R
         return _on(rod, rod, u, _halved(rod.mesh), tangent)
     errors = _errors(rod, u, lam, known) / min(max(float(np.abs(known.u).max()), SMALLEST), 1.0)
     total = float(errors.sum())
-    if abs(lam - rod.expected[0]) <= SAME * abs(lam) and total > rod.expected[1]:
+    if abs(lam - rod.expected[0]) <= SAME * abs(lam) and rod.expected[1] < total < ROUNDED:
         rod.stuck = 100 * total  # the last mesh was no better here: rounding, which the error of a point tells
     if total <= rod.stuck:
         return None

@@ -118,6 +118,10 @@ class Rod:
         other._collocate(mesh, self.degree if degree is None else degree)
         return other
 
+    def on_points(self, points: Sequence[float]) -> "Rod":
+        """The same rod on the mesh of these points, as a recipe holds them."""
+        return self.on(given_mesh(np.asarray(points), self.breaks))
+
     def replace(self, **changes: Any) -> "Rod":
         """The same rod with other arguments, or other parameters of its terms.
 
