@@ -27,8 +27,10 @@ if TYPE_CHECKING:
     from rodlab.analysis.vary import vary
     from rodlab.lab.saved import read
     from rodlab.mechanics.buckling import Buckling, buckling, buckling_loads
+    from rodlab.mechanics.conjugate import conjugate_points
     from rodlab.mechanics.convexity import uniqueness
     from rodlab.mechanics.elastica import Elastica, elastica
+    from rodlab.mechanics.invariants import Invariants, invariants
     from rodlab.mechanics.rod import Rod
     from rodlab.mechanics.strut import Strut
     from rodlab.mechanics.terms import Term, end_torque, foundation, self_weight, term
@@ -43,6 +45,7 @@ _HOME = {
     "Elastica": "mechanics.elastica",
     "Equations": "analysis.equations",
     "Event": "analysis.events",
+    "Invariants": "mechanics.invariants",
     "Newton": "analysis.newton",
     "NoConvergence": "analysis.newton",
     "Point": "analysis.point",
@@ -56,12 +59,14 @@ _HOME = {
     "buckling": "mechanics.buckling",
     "buckling_loads": "mechanics.buckling",
     "elastica": "mechanics.elastica",
+    "conjugate_points": "mechanics.conjugate",
     "end_torque": "mechanics.terms",
     "equilibrium": "analysis.equilibrium",
     "factor": "numerics.factor",
     "fold": "analysis.events",
     "follow": "analysis.follow",
     "foundation": "mechanics.terms",
+    "invariants": "mechanics.invariants",
     "read": "lab.saved",
     "self_weight": "mechanics.terms",
     "steepest_descent": "analysis.downhill",
@@ -72,9 +77,9 @@ _HOME = {
 }
 
 __all__ = [  # the same names; a test compares
-    "Bordered", "Branch", "Buckling", "Elastica", "Equations", "Event", "Newton", "NoConvergence", "Point", "Rod", "Shape",
-    "Strut", "Term", "Tridiagonal", "branch", "branch_point", "buckling", "buckling_loads", "elastica", "end_torque",
-    "equilibrium", "factor", "fold", "follow", "foundation", "read", "self_weight", "steepest_descent",
+    "Bordered", "Branch", "Buckling", "Elastica", "Equations", "Event", "Invariants", "Newton", "NoConvergence", "Point", "Rod", "Shape",
+    "Strut", "Term", "Tridiagonal", "branch", "branch_point", "buckling", "buckling_loads", "conjugate_points", "elastica", "end_torque",
+    "equilibrium", "factor", "fold", "follow", "foundation", "invariants", "read", "self_weight", "steepest_descent",
     "switch", "term", "uniqueness", "vary",
 ]  # fmt: skip
 

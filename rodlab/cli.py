@@ -77,21 +77,22 @@ def buckling(chosen: argparse.Namespace) -> int:
     from rodlab.lab.store import as_json, framed
     from rodlab.lab.table import known_to, small, table
     from rodlab.mechanics.buckling import buckling_each, mode_numbers
-    from rodlab.mechanics.strut import Strut
+    from rodlab.mechanics.recipe import build
 
     start = time.perf_counter()
-    strut = Strut(n=chosen.n, K=_number_or_text(chosen.K), rule=chosen.rule, breaks=tuple(chosen.breaks))
-    numbers = mode_numbers(strut, min(3, strut.n) if chosen.modes is None else chosen.modes)
-    found = list(_progress(buckling_each(strut, numbers), "buckling loads", len(numbers), chosen.n * len(numbers)))
+    asked = _model(chosen)
+    model: Any = build(asked)
+    most = getattr(model, "n", 3)
+    numbers = mode_numbers(model, min(3, most) if chosen.modes is None else chosen.modes)
+    found = list(_progress(buckling_each(model, numbers), "buckling loads", len(numbers), asked.get("n", 10_000) * len(numbers)))
     loads, error = zip(*found, strict=True)
     seconds = time.perf_counter() - start
     if chosen.json:
-        asked = {"model": chosen.model, "n": chosen.n, "rule": chosen.rule, "K": chosen.K, "breaks": chosen.breaks}
-        answer = framed("buckling", seconds, {**asked, "modes": list(numbers), "loads": loads, "error": error})
+        answer = framed("buckling", seconds, {**asked, "K": chosen.K, "modes": list(numbers), "loads": loads, "error": error})
         print(as_json(answer))
     else:
         rows: list[list[Any]] = [[j, known_to(load, e), small(e)] for j, load, e in zip(numbers, loads, error, strict=True)]
-        print(table(f"Buckling loads of {strut!r}", ["mode", "load", "error at most"], rows))
+        print(table(f"Buckling loads of {model!r}", ["mode", "load", "error at most"], rows))
         print(f"in {1e3 * seconds:.1f} ms")
     return 0
 
@@ -106,18 +107,18 @@ def follow(chosen: argparse.Namespace) -> int:
     start = time.perf_counter()
     if chosen.out:
         place(chosen.out)  # a wrong name is said before the work, not after it
-    arguments = {"n": chosen.n, "K": _number_or_text(chosen.K), "u_hat": _number_or_text(chosen.u_hat), "rule": chosen.rule}
-    strut, branch = followed(
-        {**arguments, "breaks": tuple(chosen.breaks)}, chosen.start, chosen.to, mode=chosen.mode, guess=chosen.guess,
-        step=chosen.step, max_points=chosen.max_points, watch=_watched("points", chosen.n),
+    asked = {**_model(chosen), "u_hat": _number_or_text(chosen.u_hat)}
+    model, branch = followed(
+        asked, chosen.start, chosen.to, mode=chosen.mode, guess=chosen.guess,
+        step=chosen.step, max_points=chosen.max_points, watch=_watched("points", asked.get("n", 100)),
     )  # fmt: skip
     written = [str(branch.save(chosen.out))] if chosen.out else []
     seconds = time.perf_counter() - start
     if chosen.json:
-        asked = {"model": chosen.model, **arguments, "from": chosen.start, "to": chosen.to, "mode": chosen.mode}
+        asked |= {"from": chosen.start, "to": chosen.to, "mode": chosen.mode}
         print(as_json(framed("follow", seconds, {**asked, **answers.of_branch(branch), "files": written})))
     else:
-        title = f"{'Main branch' if chosen.mode is None else f'Branch of mode {chosen.mode}'} of {strut!r}"
+        title = f"{'Main branch' if chosen.mode is None else f'Branch of mode {chosen.mode}'} of {model!r}"
         print(answers.points_table(title, branch), answers.events_table(branch), sep="\n\n")
         print(f"in {1e3 * seconds:.0f} ms" + "".join(f"; written: {path}" for path in written))
     return 0 if branch.completed else _complain("follow", branch.reason, 3)
@@ -179,12 +180,12 @@ def _parser() -> argparse.ArgumentParser:
     verb = _verb(verbs, tour, "the main job: the strut at several n, tables, pictures and data, in seconds")
     verb.add_argument("--out", default="rodlab-tour", metavar="DIR", help="folder for pictures and data (default: %(default)s)")
 
-    verb = _verb(verbs, buckling, "buckling loads of a straight strut, with error bounds")
-    _strut_options(verb, 1000)
+    verb = _verb(verbs, buckling, "buckling loads of a straight strut or rod, with error bounds")
+    _model_options(verb, 1000)
     verb.add_argument("--modes", type=int, help="how many loads (default: 3)")
 
-    verb = _verb(verbs, follow, "follow a branch of a strut to a load, with its folds and branch points")
-    _strut_options(verb, 100)
+    verb = _verb(verbs, follow, "follow a branch of a strut or rod to a load, with its folds and branch points")
+    _model_options(verb, 100)
     verb.add_argument("--u-hat", default="0", help="unstressed curvature: a number or an expression in s (default: 0)")
     verb.add_argument("--from", dest="start", type=float, default=0.0, metavar="LAM", help="load to start at (default: 0)")
     verb.add_argument("--to", type=float, required=True, metavar="LAM", help="load to end at")
@@ -202,10 +203,29 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _strut_options(verb: argparse.ArgumentParser, n: int) -> None:
-    verb.add_argument("--model", choices=["strut"], default="strut", help="the model (default: %(default)s)")
-    verb.add_argument("-n", type=int, default=n, help="number of joints (default: %(default)s)")
-    verb.add_argument("--rule", default="end", help="end or trapezoid (default: %(default)s)")
+def _model(chosen: argparse.Namespace) -> dict[str, Any]:
+    """The recipe of the model that is asked for; one sentence for an option that the model does not have."""
+    recipe: dict[str, Any] = {"model": chosen.model, "K": _number_or_text(chosen.K), "breaks": list(chosen.breaks)}
+    own = {"strut": ("n", "rule"), "rod": ("degree", "mesh", "tol")}
+    for name in (name for names in own.values() for name in names):
+        value = getattr(chosen, name)
+        if value is not None and name not in own[chosen.model]:
+            raise ValueError(f"{name} must not be given for a {chosen.model}, which has none; it is {value!r}")
+        if value is not None:
+            recipe[name] = value
+    if chosen.model == "strut":
+        recipe = {"n": chosen.joints, "rule": "end", **recipe}
+    return recipe
+
+
+def _model_options(verb: argparse.ArgumentParser, n: int) -> None:
+    verb.add_argument("--model", choices=["strut", "rod"], default="strut", help="the model (default: %(default)s)")
+    verb.add_argument("-n", type=int, help=f"of a strut: number of joints (default: {n})")
+    verb.set_defaults(joints=n)
+    verb.add_argument("--rule", help="of a strut: end or trapezoid (default: end)")
+    verb.add_argument("--degree", type=int, help="of a rod: degree of the collocated polynomials (default: 6)")
+    verb.add_argument("--mesh", type=int, help="of a rod: number of intervals (default: adapted)")
+    verb.add_argument("--tol", type=float, help="of a rod: error of the angles that the mesh is adapted to (default: 1e-10)")
     verb.add_argument("--K", default="1", help='bending stiffness: a number or an expression in s, "1+s" (default: 1)')
     verb.add_argument("--breaks", type=float, nargs="+", default=[], metavar="S", help="where K or u_hat jumps")
 

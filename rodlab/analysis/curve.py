@@ -17,13 +17,14 @@ import numpy as np
 
 from rodlab.analysis.equations import Equations, jacobian, second_variation
 from rodlab.analysis.newton import WIDE, NewtonStep, NoConvergence
-from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.arrays import EPS, Array, is_finite
 from rodlab.numerics.bordered import OneBorder
 from rodlab.numerics.factor import factor, inertia_of
 from rodlab.numerics.inertia import Inertia, Symmetric
 
 PLATEAU = 1e-11  # relative size at which slow corrections are rounding
 ROUGH = 1e-7  # relative size below which corrections that stop shrinking are rounding
+BARE = 1e-10  # relative size of what may be left to correct where nothing is shown
 CHORD = 1e-5  # relative size below which one more correction with the same factor finishes
 
 
@@ -33,6 +34,7 @@ class Corrected(NamedTuple):
     y: Array
     history: tuple[NewtonStep, ...]
     remaining: float
+    solver: OneBorder | None = None  # the last bordered matrix, taken a correction before
 
 
 class Curve:
@@ -47,10 +49,11 @@ class Curve:
     array([ 1., -0.])
     """
 
-    def __init__(self, equations: Equations, scale: float = 1.0) -> None:
+    def __init__(self, equations: Equations, scale: float = 1.0, *, wide: bool = True) -> None:
         self.equations, self.scale = equations, scale
+        self.accuracy = 0.0 if wide else BARE  # of corrections, as a part of the size of y
         self._symmetric: bool | None = None
-        self._wide = getattr(equations, "residual_wide", None)
+        self._wide = getattr(equations, "residual_wide", None) if wide else None
         bound = getattr(equations, "embedding", None)
         self.embedding = bound if bound is not None else lambda _: (0.0, 1.0)
 
@@ -106,7 +109,8 @@ class Curve:
     def norm(self, a: Array) -> float:
         """The length of a step."""
         with np.errstate(over="ignore", invalid="ignore"):
-            return math.sqrt(max(self.dot(a, a), 0.0))
+            square = self.dot(a, a)
+        return math.sqrt(square) if square > 0 else square * 0.0
 
     def row(self, t: Array) -> Array:
         """The functional y -> t . y as a row: 1 on the unit vector t itself.
@@ -118,10 +122,10 @@ class Curve:
         weight = float(self.equations.inner(u, u)) / plain if plain > 0 else 0.0
         return np.append(weight * u, t[-1] / self.scale**2)
 
-    def tangent(self, y: Array, toward: Array) -> Array:
-        """The unit tangent at a solution y, on the side of the direction `toward`."""
+    def tangent(self, y: Array, toward: Array, solver: OneBorder | None = None) -> Array:
+        """The unit tangent at a solution y, on the side of the direction `toward`; by a bordered matrix of next to y, if given."""
         row = self.row(toward / self.norm(toward))
-        solver = self._solver(y, row, [])
+        solver = self._solver(y, row, []) if solver is None else solver
         side = np.zeros_like(y)
         side[-1] = 1.0
         with np.errstate(all="ignore"):
@@ -138,49 +142,51 @@ class Curve:
 
         Raises `NoConvergence` unless every correction is at most half the last, up to rounding.
         """
+        with np.errstate(all="ignore"):
+            return self._corrections(y, row, limit)
+
+    def _corrections(self, y: Array, row: Array, limit: int) -> Corrected:
         history: list[NewtonStep] = []
-        last, solver, start, wide, reusable = math.inf, None, self.norm(y), False, True
-        while len(history) < limit:
-            if self._wide is not None and not wide and last <= WIDE * max(self.norm(y), start):
+        last, solver, scale, wide, reusable = math.inf, None, self.norm(y), False, True
+        floor = max(2 * EPS * max(self.norm(np.append(y[:-1], 0.0)), 1e-3 * scale), self.accuracy * scale)
+        right = np.zeros_like(y)
+        while len(history) < limit + 4 * wide:
+            if self._wide is not None and not wide and last <= WIDE * scale:
                 wide, last = True, math.inf  # what follows sees a better residual, and is not compared with the last step
-            F = self._finite_residual(y, history, wide=wide)
+            right[:-1] = self._finite_residual(y, history, wide=wide)
             reused = solver is not None
             if solver is None:
                 solver = self._solver(y, row, history)
-            with np.errstate(all="ignore"):
-                step = solver.solve(np.append(-F, 0.0))
+            step = solver.solve(-right)
             size = self.norm(step)
-            history.append(NewtonStep(size, self._size(F), 1.0))
-            scale = max(self.norm(y), start)
+            history.append(NewtonStep(size, self.norm(right), 1.0))
             if not math.isfinite(size) or size > scale + 1e3:
                 raise NoConvergence(f"the corrector left: a correction of {size:.2g} from a point of {scale:.2g}", tuple(history))
-            floor = 2 * EPS * max(self.norm(np.append(y[:-1], 0.0)), 1e-3 * start)
             theta = size / last if 0 < last < math.inf else math.inf
             if theta > 0.5 and reused and math.isfinite(theta):
                 solver, reusable = None, False  # a nearly singular matrix serves once only
                 continue
             if theta > 0.5 and math.isfinite(theta) and size > floor:
                 if last <= ROUGH * scale:  # corrections of the size of rounding shrink no more
-                    return self._corrected(y, step, 2 * last, history)
+                    return self._corrected(y, step, 2 * last, history, solver)
                 raise NoConvergence(f"corrections do not shrink: {last:.2g}, then {size:.2g}", tuple(history))
             y = y + step
             left = size * theta / (1 - theta) if theta < 0.5 else math.inf
             if size <= floor or left <= floor:
-                return self._corrected(y, step, min(size, left), history)
+                return self._corrected(y, step, min(size, left), history, solver)
             last = size
             if size > CHORD * scale or not reusable:
                 solver = None  # else the last factor serves once more
         if last <= PLATEAU * scale:
-            return self._corrected(y, step, 2 * last, history)
-        raise NoConvergence(f"after {limit} corrections the last was {last:.2g}", tuple(history))
+            return self._corrected(y, step, 2 * last, history, solver)
+        raise NoConvergence(f"after {len(history)} corrections the last was {last:.2g}", tuple(history))
 
     def _finite_residual(self, y: Array, history: list[NewtonStep], *, wide: bool) -> Array:
         try:
-            with np.errstate(all="ignore"):
-                F = self.residual(y, wide=wide) if np.isfinite(y).all() else np.full(y.size - 1, np.nan)
+            F = self.residual(y, wide=wide) if is_finite(y) else np.full(y.size - 1, np.nan)
         except (ValueError, ArithmeticError) as error:
             raise NoConvergence(f"the residual cannot be computed: {error}", tuple(history)) from error
-        if not np.isfinite(F).all():
+        if not is_finite(F):
             raise NoConvergence("the residual is not finite at the predicted point", tuple(history))
         return F
 
@@ -192,13 +198,12 @@ class Curve:
         except (ValueError, ArithmeticError) as error:
             raise NoConvergence(f"the derivatives cannot be used: {error}", tuple(history)) from error
 
-    def _size(self, F: Array) -> float:
-        return self.norm(np.append(F, 0.0))
-
-    def _corrected(self, y: Array, step: Array, left: float, history: list[NewtonStep]) -> Corrected:
+    def _corrected(
+        self, y: Array, step: Array, left: float, history: list[NewtonStep], solver: OneBorder | None
+    ) -> Corrected:
         size = self.norm(step)
         remaining = left * float(np.abs(step[:-1]).max(initial=0.0)) / size if size else 0.0
-        return Corrected(y, tuple(history), remaining)
+        return Corrected(y, tuple(history), remaining, solver)
 
 
 def _is_symmetric(J: Any) -> bool:

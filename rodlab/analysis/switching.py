@@ -51,6 +51,9 @@ def switch(event: Event) -> list[Point]:
     null = _null(curve, y, event)
     if null.right.shape[1] > MOST:
         raise ValueError(f"event must have at most {MOST} null vectors; it has {null.right.shape[1]}")
+    simple = _simple(curve, event, y, null)
+    if simple:
+        return simple
     reduced = Reduced(curve, y, null)
     rho, farther, failure = FIRST, list[Point](), "none leaves"
     while rho >= LEAST:
@@ -63,6 +66,46 @@ def switch(event: Event) -> list[Point]:
         farther = starts
         rho /= 4
     raise NoConvergence(f"no half-branch could be told at lam = {event.lam:.9g}: {failure}", ())
+
+
+def _simple(curve: Curve, event: Event, y: Array, null: NearNull) -> list[Point]:
+    """The two half-branches where a single eigenvalue crosses zero: one other curve passes [Crandall and Rabinowitz 1971].
+
+    Each is found across the null direction at two distances, and must have left the followed branch; else none is returned,
+    and the bifurcation equations decide.
+    """
+    fence = event.fence
+    assert fence is not None
+    before, after = curve.index(fence.a), curve.index(fence.b)
+    if null.right.shape[1] != 1 or before is None or after is None or abs(before - after) != 1:
+        return []
+    parent = fence.derivative(float(fence.row @ (y - fence.a)))
+    parent = parent / curve.norm(parent)
+    v = np.append(null.right[:, 0], 0.0)
+    across = v - curve.dot(v, parent) * parent
+    if curve.norm(across) < SLIM * curve.norm(v):
+        return []
+    across /= curve.norm(across)
+    starts = [_aside(curve, y, side * across, parent) for side in (1.0, -1.0)]
+    found = [start for start in starts if start is not None]
+    few = [0, (y.size - 1) // 2, -1]
+    return sorted(found, key=lambda p: tuple(-np.round(p.u[few] / (1e-3 * FIRST)))) if len(found) == 2 else []
+
+
+def _aside(curve: Curve, y: Array, across: Array, parent: Array) -> Point | None:
+    """A solution a distance FIRST aside of a branch point, by way of one half as far; None where it is not on a curve through both."""
+    row = curve.row(across)
+    try:
+        near = curve.correct(y + FIRST / 2 * across, row, limit=12).y
+        far = curve.correct(y + 2 * (near - y), row, limit=12)
+    except NoConvergence:
+        return None
+    bend = curve.norm(far.y - y - 2 * (near - y))
+    along = abs(curve.dot(far.y - y, parent))
+    if bend > 0.2 * FIRST or along > 0.5 * FIRST:  # not a smooth curve from y, or the followed branch itself
+        return None
+    t = curve.tangent(far.y, far.y - y)
+    return Point(curve.equations, float(far.y[-1]), far.y[:-1].copy(), far.history, far.remaining, t, "checked")
 
 
 def _load_size(event: Event) -> float:

@@ -11,6 +11,7 @@ from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.analysis.switching import switch
 from rodlab.mechanics.buckling import buckling_loads
+from rodlab.mechanics.rod import Rod
 from rodlab.mechanics.strut import Strut
 
 
@@ -39,13 +40,17 @@ def timed(name: str, run: Callable[[], Branch]) -> Shown:
     return Shown(name, branch, time.perf_counter() - start)
 
 
-def trivial(strut: Strut, modes: int) -> Branch:
+Model = Strut | Rod
+
+
+def trivial(strut: Model, modes: int) -> Branch:
     """The straight branch from no load to beyond the branch point of the last mode asked for."""
-    last = buckling_loads(strut, [modes, min(modes + 1, strut.n)])
+    most = strut.n if isinstance(strut, Strut) else modes + 1
+    last = buckling_loads(strut, [modes, min(modes + 1, most)])
     return follow(equilibrium(strut, 0.0), to=float(last.mean()) if len(last) > 1 else 1.1 * float(last[0]), events=branch_point)
 
 
-def mode_starts(strut: Strut, mode: int) -> list[Point]:
+def mode_starts(strut: Model, mode: int) -> list[Point]:
     """The two starts where a mode leaves the straight branch, phi'(0) > 0 first."""
     load = float(buckling_loads(strut, [mode])[0])
     branch = trivial(strut, mode)
@@ -55,18 +60,18 @@ def mode_starts(strut: Strut, mode: int) -> list[Point]:
     return switch(own[0])
 
 
-def mode_branch(strut: Strut, mode: int, to: float) -> Branch:
+def mode_branch(strut: Model, mode: int, to: float) -> Branch:
     """The half-branch of a mode with phi'(0) > 0, followed to a load."""
     return follow(mode_starts(strut, mode)[0], to=to)
 
 
-def detached(strut: Strut, near: float) -> Point:
+def detached(strut: Model, near: float) -> Point:
     """A stable state on the branch that an imperfection cuts off: bent against the imperfection at the load `near`."""
     own = follow(equilibrium(strut, 0.0), to=near).points[-1]
-    return equilibrium(strut, near, -own.u)
+    return equilibrium(own.equations, near, -own.u)
 
 
-def straight(strut: Strut, load: float) -> Found:
+def straight(strut: Model, load: float) -> Found:
     """The straight equilibrium."""
     start = time.perf_counter()
     point = equilibrium(strut, load)

@@ -14,6 +14,7 @@ from rodlab.analysis.point import Point
 from rodlab.lab.branches import Found, Shown
 from rodlab.lab.curves import pieces
 from rodlab.lab.loads import ORDER, Extrapolated, Load
+from rodlab.lab.routes import Route
 
 GREYS = ("0.0", "0.35", "0.6")
 LABELS = {"tip_angle": r"tip angle $\phi_n$ (radians)", "height": "height", "energy": "energy"}
@@ -77,6 +78,31 @@ def shapes_picture(columns: Sequence[tuple[int, Sequence[Found], float]]) -> Fig
         axes.set_xlabel("$x$")
         axes.tick_params(labelsize=8)
     np.atleast_1d(panels)[0].set_ylabel("$z$")
+    return fig
+
+
+def routes_picture(routed: Sequence[Route]) -> Figure:
+    """Error of a tip angle against the number of unknowns, one line a method, named at its end."""
+    fig, axes = figure(6.4, 4.6)
+    methods = list(dict.fromkeys(route.method for route in routed))
+    marks = dict(zip(methods, "os^vDP*X", strict=False))
+    for method in methods:
+        own = [route for route in routed if route.method == method]
+        shown = [route for route in own if route.error > 0]
+        strut = method.startswith("strut")
+        style = {"color": "0.5" if strut else "0.0", "mfc": "0.5" if strut else "w", "marker": marks[method], "ms": 4.5}
+        axes.loglog([r.unknowns for r in shown], [r.error for r in shown], lw=1.1, **style)
+        least = next((r for r in shown if r.error < 1e-13), shown[-1])
+        axes.annotate(
+            f"{method}: order {own[0].order}", (least.unknowns, max(least.error, 2e-15)),
+            (-6, -9) if method == "rod, degree 1" else (5, 0), textcoords="offset points", fontsize=7.5, va="center",
+            color=style["color"],
+        )  # fmt: skip
+    axes.set_xlabel("number of unknowns: joints, or nodes of the collocated rod")
+    axes.set_ylabel(r"error of the tip angle $|\phi(1) - \alpha|$ (radians)")
+    axes.set_xlim(1.5, 9e4)
+    axes.set_ylim(2e-16, 3)
+    axes.grid(True, which="major", lw=0.3, color="0.85")
     return fig
 
 

@@ -1,4 +1,4 @@
-"""The tour, rodlab's main job: the strut at several n, before and after buckling, on its way to the rod.
+"""The tour, rodlab's main job: the strut at several n, before and after buckling, on its way to the rod, which it meets.
 
 Tables for the terminal; pictures and data for a folder.
 """
@@ -16,17 +16,21 @@ from rodlab.analysis.follow import Branch, follow
 from rodlab.files import write_whole
 from rodlab.lab.answers import branches_table
 from rodlab.lab.branches import Found, Shown, detached, mode_branch, on, straight, timed, trivial
-from rodlab.lab.loads import Extrapolated, Load, extrapolate, loads_against_n
-from rodlab.lab.picture import diagram_picture, loads_picture, png, shapes_picture
+from rodlab.lab.loads import Extrapolated, Load, exact_load, extrapolate, loads_against_n
+from rodlab.lab.picture import diagram_picture, loads_picture, png, routes_picture, shapes_picture
+from rodlab.lab.routes import Route, routes
 from rodlab.lab.store import as_csv, as_json, framed
 from rodlab.lab.table import known_to, small, table
-from rodlab.mechanics.buckling import buckling_loads
+from rodlab.mechanics.buckling import Buckling, buckling, buckling_loads
 from rodlab.mechanics.joints import RULES
+from rodlab.mechanics.rod import Rod
 from rodlab.mechanics.strut import Strut
 
 SIZES = tuple(8 * 2**i for i in range(10))
 MODES = (1, 2, 3)
 JOINTS = 100
+INTERVALS = tuple(2 * 2**i for i in range(6))
+ROUTED = 2.0  # load of the three routes, over the first buckling load
 IMPERFECTION = 0.1  # u_hat of the imperfect strut
 TO = 4.0  # end of the bifurcation diagram, over the first buckling load
 SHAPES = (1.02, 1.1, 1.3, 1.7, 2.5, 5.0)  # loads over the buckling load
@@ -37,16 +41,22 @@ def tour(folder: Path) -> tuple[dict[str, Any], str]:
     start = time.perf_counter()
     loads = list(_progress(loads_against_n(SIZES, MODES), "buckling loads", len(RULES) * len(SIZES) * len(MODES)))
     limits = [extrapolate([e for e in loads if (e.rule, e.mode) == (r, m)]) for r in RULES for m in MODES]
+    rod = buckling(Rod(), len(MODES))
+    routed = list(_progress(routes(ROUTED * exact_load(1), SIZES, INTERVALS), "routes", None))
     strut = Strut(n=JOINTS)
     known = [float(load) for load in buckling_loads(strut, len(MODES))]
     shown = list(_progress(diagram(strut, known), "branches", len(MODES) + 3))
     columns = [(m, list(shapes(shown[m].branch, m, known[m - 1])), known[m - 1]) for m in MODES]
     states = list(before_and_after(strut, known, shown))
     answer = framed("tour", time.perf_counter() - start, _answer(loads, limits, states, shown))
+    answer["rod"] = [{"mode": j, "load": x, "error": e} for j, x, e in zip(rod.numbers, rod.loads, rod.error, strict=True)]
+    answer["routes"] = [vars(route) for route in routed]
     files: dict[str, bytes | str] = {
         "diagram.png": png(diagram_picture(shown, known)),
         "loads.png": png(loads_picture(loads, limits)),
         "shapes.png": png(shapes_picture(columns)),
+        "routes.png": png(routes_picture(routed)),
+        "routes.csv": as_csv(*_columns(answer["routes"])),
         "loads.csv": as_csv(*_columns(answer["loads"])),
         "equilibria.csv": as_csv(*_columns(answer["equilibria"])),
         "branches.csv": as_csv(*_columns(answer["branches"])),
@@ -54,7 +64,7 @@ def tour(folder: Path) -> tuple[dict[str, Any], str]:
     }
     answer["files"] = [str(write_whole(folder / name, content)) for name, content in files.items()]
     answer["seconds"] = time.perf_counter() - start
-    return answer, _text(answer, loads, limits, states, shown)
+    return answer, _text(answer, loads, limits, states, shown, rod, routed)
 
 
 def diagram(strut: Strut, known: Sequence[float]) -> Iterator[Shown]:
@@ -119,9 +129,10 @@ def _columns(rows: Sequence[dict[str, Any]]) -> tuple[list[str], list[list[Any]]
 
 
 def _text(
-    answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found], shown: Sequence[Shown]
-) -> str:
-    parts = [_loads_table(rule, loads, limits) for rule in RULES]
+    answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found], shown: Sequence[Shown],
+    rod: Buckling, routed: Sequence[Route],
+) -> str:  # fmt: skip
+    parts = [*(_loads_table(rule, loads, limits, rod) for rule in RULES), _routes_table(routed)]
     parts.append(
         table(
             f"Equilibria of the strut, n = {JOINTS}, before and after buckling",
@@ -147,7 +158,19 @@ def _text(
     return "\n\n".join(parts)
 
 
-def _loads_table(rule: str, loads: Sequence[Load], limits: Sequence[Extrapolated]) -> str:
+def _routes_table(routed: Sequence[Route]) -> str:
+    """Each method at its coarsest, its best, and in between; the orders above rounding."""
+    rows: list[list[Any]] = []
+    for method in dict.fromkeys(route.method for route in routed):
+        own = [route for route in routed if route.method == method]
+        orders = [f"{route.observed:.2f}" for route in own if route.observed is not None]
+        best = min(own, key=lambda route: route.error)
+        rows.append([method, own[0].order, " ".join(orders[-3:]), best.unknowns, small(best.error), f"{1e3 * best.seconds:.1f}"])
+    title = f"Three routes to the tip angle of mode 1 at {ROUTED:g} times its load: errors against the exact elastica"
+    return table(title, ["method", "order", "last observed", "unknowns", "error", "ms"], rows)
+
+
+def _loads_table(rule: str, loads: Sequence[Load], limits: Sequence[Extrapolated], rod: Buckling) -> str:
     rows: list[list[Any]] = []
     own = [e for e in loads if e.rule == rule]
     for n in SIZES:
@@ -157,6 +180,9 @@ def _loads_table(rule: str, loads: Sequence[Load], limits: Sequence[Extrapolated
     best = [e for e in limits if e.rule == rule]
     rows.append(["extrapolated", *(c for e in best for c in (known_to(e.load, e.estimate)[:14], small(e.error), "")), ""])
     rows.append(["its estimate", *(c for e in best for c in ("", small(e.estimate), "")), ""])
+    both = list(zip(rod.loads, rod.error, best, strict=True))
+    rows.append(["rod, collocated", *(c for x, e, limit in both for c in (f"{x:.11f}", small(abs(x - limit.limit)), "")), ""])
+    rows.append(["its bound", *(c for _, e, _ in both for c in ("", small(e), "")), ""])
     rows.append(["rod, exact", *(c for e in best for c in (f"{e.limit:.11f}", "", "")), ""])
     header = ["n", *(c for m in MODES for c in (f"load {m}", "error", "order")), "ms"]
     return table(f'Buckling loads of the uniform strut, rule "{rule}", and their limit', header, rows)

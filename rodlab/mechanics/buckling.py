@@ -69,7 +69,7 @@ def buckling(model: "Strut | Rod", modes: int | Sequence[int] = 3) -> Buckling:
            [ 1.   , -0.618]]))
     >>> b = buckling(Rod(K="(1 + s)**2"), 1)
     >>> b.loads.round(9), bool(b.error[0] < 1e-11)
-    (array([3.836376776]), True)
+    (array([3.836376918]), True)
     """
     numbers = mode_numbers(model, modes)
     found = list(buckling_each(model, numbers))

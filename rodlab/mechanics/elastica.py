@@ -98,6 +98,8 @@ class Elastica:
     def __call__(self, s: Any) -> tuple[Array, Array, Array]:
         """phi, x, z at arclengths s, arrays of the shape of s."""
         s = np.asarray(s, dtype=np.float64)
+        if not ((s >= 0) & (s <= 1)).all():
+            raise ValueError(f"s must lie between 0 and 1; it is {s!r:.60}")
         values = np.array([self._at(float(x)) for x in s.ravel()]).reshape(-1, 3)
         phi, x, z = (column.reshape(s.shape) for column in values.T)
         return phi, x, z

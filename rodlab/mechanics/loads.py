@@ -20,6 +20,8 @@ import numpy as np
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.collocated import Collocated
 from rodlab.numerics.collocation import Grid
+from rodlab.numerics.difference import DifferenceForm, Springs
+from rodlab.numerics.mesh import equidistributed
 
 if TYPE_CHECKING:
     from rodlab.mechanics.rod import Rod
@@ -27,6 +29,9 @@ if TYPE_CHECKING:
 DEGREE, MORE = 10, 8  # of the polynomials, and of the companion's besides
 PHASE = 1.0  # of a mode, sqrt(lam / K) h, on an interval
 FEWEST = 4  # intervals
+WANTED, AIM = 1e-12, 1e-14  # relative error of a load: asked for, and that a better mesh is made for
+TRIES = 400  # bounds tried for a load
+MESHES = 12  # tried for a load
 LARGEST = 1e153  # of K and 1/K
 
 
@@ -37,6 +42,8 @@ class Load(NamedTuple):
     error: float
     grid: Grid
     mode: Array
+    missed: Array  # by each interval of the mesh, relative to the load
+    rounding: float  # the part of the error that a finer mesh does not mend
 
 
 class Pencil:
@@ -59,10 +66,52 @@ class Pencil:
         n = self.grid.degree + 1
         return Collocated((self.stiff - lam * self.mass).reshape(-1, n, n), self.grid.layout)
 
+    def condensed(self, lam: float) -> tuple[DifferenceForm, Array, Array] | None:
+        """S - lam M condensed to the mesh points, (the tridiagonal, F, the inner inverse); None where the mesh is too coarse.
+
+        As springs k between the points and a softening c of each, D^T k D - C: the response to a constant needs no stiffness, so
+        that c is not what is left over of K, and nothing is lost whatever its contrast.
+        """
+        n = self.grid.degree + 1
+        blocks, mass = ((part.reshape(-1, n, n)) for part in (self.stiff - lam * self.mass, self.mass))
+        inner, coupling = blocks[:, 1:-1, 1:-1], blocks[:, 1:-1, :: n - 1]
+        try:
+            np.linalg.cholesky(inner)
+            inverse = np.linalg.inv(inner)
+        except np.linalg.LinAlgError:  # an interval by itself has buckled
+            return None
+        F = inverse @ coupling
+        k = np.einsum("ni,ni->n", coupling[:, :, 0], F[:, :, 1]) - blocks[:, 0, -1]
+        rest = -lam * mass.sum(axis=2)
+        ends = rest[:, [0, -1]] - (rest[:, None, 1:-1] @ F)[:, 0]
+        c = -ends[:, 1]
+        c[:-1] -= ends[1:, 0]
+        return DifferenceForm(Springs(k), c), F, inverse
+
     def below(self, lam: float) -> tuple[int, int]:
         """Loads certainly below this one, and those that may be."""
-        known = self.at(lam).inertia()
+        condensed = self.condensed(lam)
+        if condensed is None:
+            known = self.at(lam).inertia()
+        else:
+            known = condensed[0].inertia(64 * (self.grid.degree + 1) * EPS * np.abs(condensed[0].c))
         return known.negative, known.negative + known.unclear
+
+    def solve(self, lam: float, b: Array) -> Array:
+        """w with (S - lam M) w = b."""
+        condensed = self.condensed(lam)
+        if condensed is None:
+            return self.at(lam).factor().solve(b)
+        form, F, inverse = condensed
+        rows = b.reshape(self.grid.N, -1)
+        inner = rows[:, :-1]
+        shares = (inner[:, None, :] @ F)[:, 0]
+        right = rows[:, -1] - shares[:, 1]
+        right[:-1] -= shares[1:, 0]
+        ends = form.factor().solve(right)
+        both = np.stack([np.append(0.0, ends[:-1]), ends], axis=1)
+        within = (inverse @ inner[:, :, None])[:, :, 0] - (F @ both[:, :, None])[:, :, 0]
+        return np.concatenate([within, ends[:, None]], axis=1).ravel()
 
     def quotient(self, w: Array) -> tuple[float, float]:
         """Rayleigh's quotient of w (N m,) and a bound on its rounding."""
@@ -74,19 +123,19 @@ class Pencil:
         lost = float(np.sum(grid.hb * self.K * np.abs(slope) * spread)) / length
         return bending / length, EPS * (2 * lost + 8 * grid.degree * bending / length)
 
-    def iterated(self, lam: float, w: Array, sweeps: int) -> tuple[float, float, Array]:
-        """Rayleigh's quotient iteration from a shift: quotient, its rounding, and the vector."""
+    def iterated(self, lam: float, w: Array, sweeps: int, *, fixed: bool = False) -> tuple[float, float, Array]:
+        """Rayleigh's quotient iteration from a shift, or inverse iteration with it: quotient, its rounding, and the vector."""
         found, rounding = lam, np.inf
         for _ in range(sweeps):
             with np.errstate(all="ignore"):
-                w = self.at(lam).factor().solve(self.mass_times(w))
+                w = self.solve(lam, self.mass_times(w))
             size = float(np.abs(w).max())
             if not (np.isfinite(size) and size > 0):
                 break
             w = w / size
             found, rounding = self.quotient(w)
             change = abs(found - lam)
-            lam = found
+            lam = lam if fixed else found
             if change <= max(rounding / 8, 4 * EPS * abs(found)):
                 break
         return found, rounding, w
@@ -114,31 +163,61 @@ def rod_loads(rod: "Rod", numbers: Sequence[int]) -> Iterator[Load]:
                 low, high = _isolated(pencil, j, guess)
                 guess = (low + high) / 2
         found = _found(pencil, j, low, high)
+        tries = 2
+        for _ in range(MESHES):
+            if not tries or found.error <= WANTED * abs(found.load) or found.error <= 4 * found.rounding:
+                break
+            mesh = equidistributed(pencil.grid.mesh, found.missed, AIM, 2 * DEGREE + 1, rod.breaks)
+            if mesh.size <= pencil.grid.mesh.size:
+                mesh = np.union1d(mesh, (mesh[1:] + mesh[:-1]) / 2)
+            finer_pencil = Pencil(rod, mesh, DEGREE)
+            better = _found(finer_pencil, j, *_isolated(finer_pencil, j, found.load))
+            tries -= better.error > found.error / 2
+            pencil, found = finer_pencil, better if better.error < found.error else found
         known.append((j, found.load))
         yield found
 
 
 def _found(pencil: Pencil, j: int, low: float, high: float) -> Load:
-    """Load j between bounds that hold it alone."""
-    w = np.sin(np.linspace(0.3, 1.7 * j + 2, pencil.grid.N * DEGREE)) + 0.5
-    load, rounding, w = pencil.iterated((low + high) / 2, w, 40)
+    """Load j between bounds that hold it alone. Raises `ArithmeticError` where it cannot be told from its neighbours."""
+    load, rounding, w = _nearest(pencil, low, high)
     for _ in range(60):
-        if low <= load <= high:
+        if low < load < high:
             break
-        low, high = _narrowed(pencil, j, low, high)  # the iteration left for a neighbour
-        load, rounding, w = pencil.iterated((low + high) / 2, w, 40)
+        low, high = _narrowed(pencil, j, low, high)  # a neighbour is nearer to the middle
+        load, rounding, w = _nearest(pencil, low, high)
+    else:
+        raise ArithmeticError(f"load {j} cannot be told from its neighbours between {low:.9g} and {high:.9g}")
     fine = pencil.companion
     better, finest, v = fine.iterated(load, pencil.grid.onto(pencil.grid.nodal(w, 0.0), fine.grid), 3)
+    error = 2 * abs(better - load) + rounding + finest
+    missed = np.abs(_shares(fine, v, better) - _shares(pencil, w, better))
     mode = np.append(0.0, v)
     mode /= np.sign(mode[np.flatnonzero(mode)[0]]) * float(np.abs(mode).max())
-    return Load(better, 2 * abs(better - load) + rounding + finest, fine.grid, mode)
+    return Load(better, error, fine.grid, mode, missed / max(abs(better), 1e-300), rounding + finest)
+
+
+def _nearest(pencil: Pencil, low: float, high: float) -> tuple[float, float, Array]:
+    """The load nearest to the middle, found from a vector with something of every mode."""
+    n = pencil.mass.shape[0] * pencil.grid.degree
+    w = np.cos(1.7 * np.arange(n) ** 1.5) + 0.3
+    load, _, w = pencil.iterated((low + high) / 2, w, 4, fixed=True)
+    return pencil.iterated(load, w, 40) if low < load < high else (load, np.inf, w)
+
+
+def _shares(pencil: Pencil, w: Array, load: float) -> Array:
+    """What each interval adds to w.(S - lam M)w, for w of length one, (N,)."""
+    grid = pencil.grid
+    value, slope = grid.at_gauss(grid.nodal(w, 0.0))
+    share = np.sum(grid.hb * (pencil.K * slope**2 - load * value**2), axis=1)
+    return np.asarray(share / float(np.sum(grid.hb * value**2)))
 
 
 def _first_mesh(rod: "Rod") -> Array:
     K = rod.parameters["K"]
     if not (float(np.max(K)) < LARGEST and float(np.min(K)) > 1 / LARGEST):
         raise ValueError(f"K must lie between 1e-153 and 1e153 for loads; it reaches {float(np.max(K)):g}")
-    return np.union1d(rod.mesh, np.linspace(0, 1, FEWEST + 1)) if rod.adapts else rod.mesh
+    return np.union1d(rod.pieces, np.linspace(0, 1, FEWEST + 1))
 
 
 def _guess(rod: "Rod", j: int, known: list[tuple[int, float]]) -> float:
@@ -154,23 +233,26 @@ def _isolated(pencil: Pencil, j: int, guess: float) -> tuple[float, float]:
     """Bounds around load j: j - 1 loads are certainly below the one, j below the other, and no more."""
     low, high = guess * (1 - 0.5 / j), guess * (1 + 0.5 / j)
     at_low, at_high = pencil.below(low), pencil.below(high)
-    while at_low[1] >= j:
-        high, at_high = (low, at_low) if at_low[0] >= j else (high, at_high)
-        low /= 1 + 1 / j if j > 2 else 2
-        at_low = pencil.below(low)
-    while at_high[0] < j:
-        low, at_low = (high, at_high) if at_high[1] < j else (low, at_low)
-        high *= 1 + 1 / j if j > 2 else 2
-        at_high = pencil.below(high)
-        if not np.isfinite(high):
-            raise ValueError(f"modes must be fewer: this mesh has no mode {j}")
-    while at_low != (j - 1, j - 1) or at_high != (j, j):
-        before = low, high
-        low, high = _narrowed(pencil, j, low, high)
-        at_low, at_high = pencil.below(low), pencil.below(high)
-        if (low, high) == before or high - low < 1e-12 * high:
-            raise ArithmeticError(f"load {j} cannot be told from its neighbours near {high:.9g}")
-    return low, high
+    for _ in range(TRIES):
+        if at_low[1] >= j:  # too high for a lower bound
+            if at_low[0] >= j:
+                high, at_high = low, at_low
+            low /= 1 + 1 / j if j > 2 else 2
+            at_low = pencil.below(low)
+        elif at_high[0] < j:
+            if at_high[1] < j:
+                low, at_low = high, at_high
+            high *= 1 + 1 / j if j > 2 else 2
+            at_high = pencil.below(high)
+        elif at_low == (j - 1, j - 1) and at_high == (j, j):
+            return low, high
+        else:
+            before = low, high
+            low, high = _narrowed(pencil, j, low, high)
+            at_low, at_high = pencil.below(low), pencil.below(high)
+            if (low, high) == before:
+                break
+    raise ArithmeticError(f"load {j} cannot be told from its neighbours near {guess:.6g}: rounding hides it")
 
 
 def _narrowed(pencil: Pencil, j: int, low: float, high: float) -> tuple[float, float]:

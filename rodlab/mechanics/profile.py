@@ -30,7 +30,10 @@ class Profile:
         self.values: Array | None = None
         self.function: Callable[[Array], Any] | None = None
         if isinstance(given, str):
-            self.function = Expression(given)
+            try:
+                self.function = Expression(given)
+            except ValueError as error:
+                raise ValueError(f"{name}: {error}") from None
             breaks += self.function.breaks
         elif callable(given):
             self.function = given

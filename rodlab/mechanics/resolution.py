@@ -19,11 +19,12 @@ from rodlab.mechanics.profile import Profile
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.collocated import BandFactor, Collocated, Condensed
 from rodlab.numerics.collocation import Grid
+from rodlab.numerics.difference import DifferenceForm, Springs
 from rodlab.numerics.inertia import Inertia
 from rodlab.numerics.mesh import equidistributed
 from rodlab.numerics.nullspace import quadratic
 from rodlab.numerics.pieces import smooth_pieces
-from rodlab.numerics.slack import largest
+from rodlab.numerics.slack import Slack
 
 if TYPE_CHECKING:
     from rodlab.mechanics.rod import Rod
@@ -31,10 +32,11 @@ if TYPE_CHECKING:
 KEEP, AIM = 3e-3, 3e-4  # of tol, and of the largest angle where that is small
 SMALLEST = 1e-2  # an angle counted as small at most
 SAME = 1e-4  # relative difference of loads at which two meshes are compared
-SPARE = 1e-3  # of AIM tol: below it a coarser mesh is tried
+SPARE = 0.1  # of AIM tol: below it a coarser mesh is tried
 FEWER = 0.6  # of the intervals: a coarser mesh is worth its while
 FAR = 0.5  # a correction of the angles, in radians, that tells nothing but that the mesh is too coarse
-FINE = 1e-10  # to which a guess is represented
+FINE, PIECE = 1e-10, 12  # to which a guess is represented, and by which degree
+COARSE, LEVELS = 1e-7, 3  # an error from which on the companion is doubted, and companions that are asked in turn
 ROUNDED = 1e-6  # errors that may be rounding and no longer fall
 HALVED = 512  # intervals of a mesh that is halved throughout, at most
 CHORD = 1e-8  # a correction of the angles after which the companion's derivative is as it was
@@ -95,8 +97,23 @@ def tip_error(rod: "Rod", u: Array, lam: float, remaining: float) -> float:
         rounded = rod_bounds.WIDE + (EPS if rod.varies else 0.0)  # a profile's values are doubles
         noise = rod_bounds.rounding(known.rod, known.u, lam, adjoint, rounded)
         left = float(abs(known.second[-1]) + np.abs(known.second).max() ** 2 * np.abs(adjoint).sum())
-        total = SAFE * (abs(float(known.u[-1] - u[-1])) + left) + noise + 2 * EPS * abs(float(u[-1])) + 0 * remaining
+        missed = _missed_tip(known, float(u[-1]), lam)
+        total = SAFE * (missed + left) + noise + 2 * EPS * abs(float(u[-1])) + 0 * remaining
     return total if np.isfinite(total) else np.inf
+
+
+def _missed_tip(known: Corrected, tip: float, lam: float) -> float:
+    """How far the tip is from the companion's; where that is far, from the companion's own companion, and so on."""
+    found = abs(float(known.u[-1]) - tip)
+    for _ in range(LEVELS):
+        if not found > COARSE:
+            break
+        finer = companion_of(known.rod, known.u, lam)
+        moved = abs(float(finer.u[-1] - known.u[-1]))
+        found, known = abs(float(finer.u[-1]) - tip) + moved, finer
+        if moved <= 0.05 * found:
+            break
+    return found
 
 
 def missed(rod: "Rod", u: Array, lam: float, v: Array) -> tuple[float, float]:
@@ -118,8 +135,7 @@ def inertia(rod: "Rod", u: Array, lam: float, remaining: float) -> Inertia:
         off = float(np.abs(known.second).max()) + 4 * EPS * float(np.abs(known.u).max(initial=0.0)) + 0 * remaining
     if not np.isfinite(off):
         return Inertia(0, rod.size, 0)
-    fine = known.rod.jacobian(known.u, lam).inertia(_slack(known.rod, known.u, lam, off))
-    own = rod.jacobian(u, lam).inertia()
+    fine, own = _inertia_of(known.rod, known.u, lam, off), _inertia_of(rod, u, lam, 0.0)
     low, high = min(own.negative, fine.negative), max(own.negative + own.unclear, fine.negative + fine.unclear)
     if low == high and _resolved(rod, u, lam):
         return Inertia(low, 0, rod.size - low)
@@ -127,9 +143,21 @@ def inertia(rod: "Rod", u: Array, lam: float, remaining: float) -> Inertia:
     return Inertia(low, high - low, max(rod.size - high, 0))
 
 
-def _slack(rod: "Rod", u: Array, lam: float, off: float) -> Any:
-    slack = rod.lipschitz(u, lam)(off, 0.0)[0]
-    return slack if np.isfinite(largest(slack)) else off * abs(lam)
+def _inertia_of(rod: "Rod", u: Array, lam: float, off: float) -> Inertia:
+    """Of all solutions within `off` of u; condensed to springs and softening, which rounding of the stiffness does not blur."""
+    matrix, slack = rod.jacobian(u, lam), rod.lipschitz(u, lam)(off, 0.0)[0]
+    spread = slack.values.sum(axis=1) if isinstance(slack, Slack) else np.full(rod.grid.N, off * abs(lam))
+    if not matrix.is_steady():
+        return matrix.inertia(slack if isinstance(slack, Slack) else off * abs(lam))
+    k, rest = _springs(rod, u, matrix.condensed(), lam)
+    if not k.min() > 0:
+        return matrix.inertia(slack if isinstance(slack, Slack) else off * abs(lam))
+    c, wide = -rest[:, 1], 4 * spread
+    c[:-1] -= rest[1:, 0]
+    wide[:-1] += 4 * spread[1:]
+    size = np.abs(rest[:, 1]) + np.append(np.abs(rest[1:, 0]), 0.0)
+    known = DifferenceForm(Springs(k), c).inertia(wide + 64 * rod.degree * EPS * size)
+    return Inertia(known.negative, known.unclear, rod.size - known.negative - known.unclear)
 
 
 def _softening(rod: "Rod", u: Array, lam: float) -> Array:
@@ -163,7 +191,7 @@ def adapted(rod: "Rod", u: Array, lam: float, tangent: Array | None) -> "tuple[R
     errors = _errors(rod, u, lam, known) / min(max(float(np.abs(known.u).max()), SMALLEST), 1.0)
     total = float(errors.sum())
     if abs(lam - rod.expected[0]) <= SAME * abs(lam) and rod.expected[1] < total < ROUNDED:
-        rod.stuck = 100 * total  # the last mesh was no better here: rounding, which the error of a point tells
+        rod.stuck = 4 * total  # the last mesh was no better here: rounding, which the error of a point tells
     if total <= rod.stuck:
         return None
     if AIM * SPARE * rod.tol < total <= KEEP * rod.tol:
@@ -180,7 +208,12 @@ def suited(rod: "Rod", guess: Any, finer: int) -> "Rod":
     """The rod on a mesh on which a guess, a function of s, can be represented, halved so many times."""
     if not (rod.adapts and callable(guess)):
         return rod
-    pieces, _ = smooth_pieces(Profile("guess", guess).at, np.array([0.0, *rod.breaks, 1.0]), FINE, 2 * rod.degree)
+    try:
+        pieces, _ = smooth_pieces(Profile("guess", guess).at, np.array([0.0, *rod.breaks, 1.0]), FINE, PIECE)
+    except ValueError as error:
+        if "guess" in str(error):
+            raise
+        return rod  # rough: it is taken as it is seen at the nodes
     mesh = np.union1d(rod.mesh, _halved(pieces)) if pieces.size > rod.breaks.size + 2 else rod.mesh
     for _ in range(finer):
         mesh = _halved(mesh)
@@ -212,12 +245,12 @@ def _errors(rod: "Rod", u: Array, lam: float, known: Corrected) -> Array:
     turn = _diagonal_of_inverse(ends.S)
     errors = missed[:, 0] * np.append(0.0, turn[:-1]) + missed[:, 1] * turn
     rest = matrix.factor().solve(-np.asarray(Grid.gathered(own), dtype=np.float64))  # what Newton's method left undone
-    change = (known.first + known.second).reshape(N, -1)[:, -1] - rest.reshape(N, -1)[:, -1]
-    seen, total = float(np.abs(change).max()), float(errors.sum())
+    turned = (known.first + known.second).reshape(N, -1)[:, -1] - rest.reshape(N, -1)[:, -1]
+    seen, total = float(np.abs(turned).max()), float(errors.sum())
     errors = errors * max(seen / total, CANCEL) if total > 0 else np.full(N, seen / N)
     if seen <= _noise(known, lam):  # no mesh does better
         errors *= min(1.0, 0.5 * KEEP * rod.tol / max(float(errors.sum()), 1e-300))
-    return np.asarray(errors + _missed_stiffness(rod, u, lam, matrix, np.abs(own_ends.S - ends.S)[:, 0, 1]))
+    return np.asarray(errors + _missed_stiffness((rod, u, own_ends), (fine, known.u, ends), lam))
 
 
 def _noise(known: Corrected, lam: float) -> float:
@@ -233,11 +266,27 @@ def _at_ends(tested: Any, condensed: Condensed) -> Array:
     return np.asarray(tested[:, [0, -1]] - (inner[:, None, :] @ condensed.F)[:, 0])
 
 
-def _missed_stiffness(rod: "Rod", u: Array, lam: float, matrix: Collocated, change: Array) -> Array:
-    """What a coupling (N,) of the ends misses per unit of load, beyond its rounding, where the load softens."""
-    noise = 32 * rod.degree * EPS * np.abs(matrix.blocks[:, 0]).sum(axis=1)
-    soft = _softening(rod, u, lam).max(axis=1) > 0
-    return np.asarray(np.where(soft, np.maximum(change - noise, 0.0), 0.0) / max(abs(lam), 1 / rod.compliance[0]))
+Side = tuple["Rod", Array, Condensed]
+
+
+def _missed_stiffness(own: Side, companion: Side, lam: float) -> Array:
+    """What the condensed second variation of each interval misses, (N,), per unit of load, where the load softens.
+
+    Compared as a spring k between its ends and their softening, as `rodlab.mechanics.loads` has them: without cancellation.
+    """
+    rod = own[0]
+    (k, c), (fine_k, fine_c) = (_springs(*side, lam) for side in (own, companion))
+    missed = np.diff(rod.mesh) * np.abs(k / fine_k - 1) + np.abs(c - fine_c).max(axis=1) / max(abs(lam), 1 / rod.compliance[0])
+    return np.asarray(np.where(_softening(rod, own[1], lam).max(axis=1) > 0, np.minimum(missed, 1.0), 0.0))
+
+
+def _springs(rod: "Rod", u: Array, condensed: Condensed, lam: float) -> tuple[Array, Array]:
+    """k (N,) and the response of the ends to a turn of all nodes, (N, 2), in which no stiffness takes part."""
+    W, grid = rod.kernel(lam), rod.grid
+    angle, slope = rod.at_gauss(u)
+    _, mixed, soft = W.stiffness(slope, angle, lam, **rod.given(W))
+    rest = grid.tested(mixed + np.zeros_like(angle), soft + np.zeros_like(angle))
+    return -condensed.S[:, 0, 1], rest[:, [0, -1]] - (rest[:, None, 1:-1] @ condensed.F)[:, 0]
 
 
 def _diagonal_of_inverse(ends: Array) -> Array:

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 FIRST = 4  # intervals of the first mesh
 HIGHEST = 32  # degree
+NEAREST = 1e-9  # distance of breaks
 
 
 class Rod:
@@ -71,17 +72,17 @@ class Rod:
         self.phi0, self.tol, self.terms = number("phi0", phi0), number("tol", tol, above=0.0), checked(terms)
         degree = whole("degree", degree, least=1)
         if degree > HIGHEST:
-            raise ValueError(f"degree must be at most {HIGHEST}; it is {degree}")
+            raise ValueError(f"degree must be at most {HIGHEST}; it is {str(degree)[:20]}")
         given = {"K": K, "u_hat": u_hat, **{name: value for term in self.terms for name, value in term.parameters.items()}}
         declared = _breaks(breaks)
         self.profiles = {name: _along_the_rod(name, value, declared) for name, value in given.items()}
         self.curved = self.profiles["u_hat"].constant != 0.0
         bend = BENDING_WITH_REST if self.curved else BENDING
         self.loaded, self._unloaded = (bend, END_LOAD, *self.terms), (bend, *self.terms)
-        self.breaks, pieces = self._pieces(declared)
+        self.breaks, self.pieces = self._pieces(declared)
         self.adapts, self.expected = mesh is None, (0.0, np.inf)  # the load at which this mesh was made, and errors below
         self.stuck = 0.0  # errors which a finer mesh does not mend
-        first = np.union1d(spread_out(FIRST, self.breaks), pieces) if mesh is None else given_mesh(mesh, self.breaks)
+        first = np.union1d(spread_out(FIRST, self.breaks), self.pieces) if mesh is None else given_mesh(mesh, self.breaks)
         self._collocate(first, degree)
         self.kernel()  # what a term of one's own lacks is said at once
 
@@ -102,12 +103,14 @@ class Rod:
 
     def _collocate(self, mesh: Array, degree: int) -> None:
         self.grid = Grid(mesh, degree)
+        self._last_state: tuple[Array, Array, Array] | None = None
         s = self.grid.s
         self.parameters: dict[str, Any] = {
             name: profile.at(s) if profile.constant is None else profile.constant for name, profile in self.profiles.items()
         }
         K = np.asarray(self.parameters["K"])
         self.profiles["K"].positive(np.broadcast_to(K, s.shape), s)
+        self.profiles["K"].positive(self.profiles["K"].at(mesh), mesh)
 
     def on(self, mesh: Array, degree: int | None = None) -> "Rod":
         """The same rod on another mesh, which holds the breaks, or with another degree."""
@@ -169,7 +172,15 @@ class Rod:
 
     def kernel(self, lam: float = 1.0) -> Any:
         """The compiled derivatives of the density; at lam = 0 the load does not occur in it."""
-        return _density(self.loaded if lam else self._unloaded)
+        return self._with_load if lam else self._without_load
+
+    @cached_property
+    def _with_load(self) -> Any:
+        return _density(self.loaded)
+
+    @cached_property
+    def _without_load(self) -> Any:
+        return _density(self._unloaded)
 
     def given(self, kernel: Any) -> dict[str, Any]:
         """The parameters that a kernel asks for."""
@@ -191,10 +202,9 @@ class Rod:
         """d2V/dphi2: `.toarray()`, `.index`, `.solve(b)`; symmetric, of overlapping blocks."""
         return self.jacobian(*self._state(phi, lam))
 
-    def d_lam(self, phi: Any, lam: float) -> Array:
-        """d(gradient)/dlam, shape (N m,)."""
-        u, lam = self._state(phi, lam)
-        return self._by("lam", u, lam)
+    def d_lam(self, phi: Array, lam: float) -> Array:
+        """d(gradient)/dlam, shape (N m,), of arguments that are not looked at."""
+        return self._by("lam", phi, lam)
 
     # --- the equations F(u, lam) = 0 that a solver sees ---------------------------------------------------------
 
@@ -209,13 +219,13 @@ class Rod:
     def tested(self, u: Array, lam: float, grid: Grid) -> Array:
         """What each interval contributes to the gradient at its nodes, (N, m+1)."""
         W = self.kernel(lam)
-        angle, slope = grid.at_gauss(grid.nodal(u, self.phi0))
+        angle, slope = self.at_gauss(u) if grid is self.grid else grid.at_gauss(grid.nodal(u, self.phi0))
         return grid.tested(*W.moments(slope, angle, lam, **self.given(W)))
 
     def jacobian(self, u: Array, lam: float) -> Collocated:
         """The Hessian, of arguments that are not looked at."""
         W, grid = self.kernel(lam), self.grid
-        angle, slope = grid.at_gauss(grid.nodal(u, self.phi0))
+        angle, slope = self.at_gauss(u)
         k, mixed, soft = W.stiffness(slope, angle, lam, **self.given(W))
         return grid.second(self._stiff if k is self.parameters["K"] else grid.stiff(k), mixed, soft)
 
@@ -226,9 +236,18 @@ class Rod:
     def _by(self, name: str, u: Array, lam: float) -> Array:
         """The derivative of the gradient in the load, or in a parameter per unit."""
         W, grid = self.kernel(), self.grid
-        angle, slope = grid.at_gauss(grid.nodal(u, self.phi0))
+        angle, slope = self.at_gauss(u)
         m, f = getattr(W, f"moments_{name}")(slope, angle, lam, **self.given(W))
-        return Grid.gathered(grid.tested(np.broadcast_to(m, angle.shape), f))
+        return Grid.gathered(grid.tested(m if np.ndim(m) else np.full(angle.shape, m), f))
+
+    def at_gauss(self, u: Array) -> tuple[Array, Array]:
+        """Angles and their derivatives at Gauss's points, (N, m) each; kept for the last u that was asked for."""
+        last = self._last_state
+        if last is not None and last[0].size == u.size and (last[0] == u).all():
+            return last[1], last[2]
+        angle, slope = self.grid.at_gauss(self.grid.nodal(u, self.phi0))
+        self._last_state = (u.copy(), angle, slope)
+        return angle, slope
 
     def inner(self, u: Array, v: Array) -> float:
         """The integral of u v over the length, by Lobatto's rule."""
@@ -373,7 +392,10 @@ def _breaks(breaks: Any) -> tuple[float, ...]:
     given = vector("breaks", list(breaks) if np.iterable(breaks) else [breaks])
     if ((given <= 0) | (given >= 1)).any():
         raise ValueError(f"breaks must lie between 0 and 1; they are {given.tolist()}")
-    return tuple(float(b) for b in np.unique(given))
+    given = np.unique(given)
+    if (np.diff(given, prepend=0.0, append=1.0) < NEAREST).any():
+        raise ValueError(f"breaks must be at least {NEAREST:g} apart, and from the ends; they are {given.tolist()}")
+    return tuple(float(b) for b in given)
 
 
 def _along_the_rod(name: str, given: Any, breaks: tuple[float, ...]) -> Profile:

@@ -70,8 +70,9 @@ class VariedRod:
         if self._last is not None and self._last[0] == value:
             return self._last[1]
         rod = copy(self.rod)
-        for name in ("companion", "compliance", "_stiff", "last_corrected"):
+        for name in ("companion", "compliance", "_stiff", "last_corrected", "_with_load", "_without_load"):
             rod.__dict__.pop(name, None)
+        rod._last_state = None
         if self.name == "phi0":
             rod.phi0 = value
         else:

@@ -178,7 +178,7 @@ class Collocated(Symmetric):
         if self._is_positive():
             return 0
         m, worst = self.m, 0
-        if m > 1 and not self._is_steady():
+        if not self.is_steady():
             inner = np.linalg.eigvalsh(self.blocks[:, 1:m, 1:m])
             if float(np.abs(inner).min()) <= STEADY * float(np.abs(inner).max()):
                 return self._counted(most=most)
@@ -194,8 +194,10 @@ class Collocated(Symmetric):
         found = Tridiagonal.of(d, e).inertia(rounding)
         return worst + found.negative + (found.unclear if most else 0)
 
-    def _is_steady(self) -> bool:
+    def is_steady(self) -> bool:
         """True when every interval by itself, its ends held, is certainly stable."""
+        if self.m == 1:
+            return True
         inner = self.blocks[:, 1 : self.m, 1 : self.m].copy()
         diagonal = np.einsum("iaa->ia", inner)
         diagonal -= STEADY * np.abs(diagonal).max()

@@ -10,7 +10,8 @@ import numpy as np
 
 from rodlab.numerics.arrays import Array, vector, whole
 
-MOST = 20_000  # intervals
+MOST = 4_000  # intervals of a mesh that is made
+GIVEN = 100_000  # of one that is given
 CUT = 8.0  # most parts of an interval at once, and the most that are merged
 RATIO = 6.0  # of densities of neighbours
 
@@ -18,7 +19,10 @@ RATIO = 6.0  # of densities of neighbours
 def given_mesh(mesh: object, breaks: Array) -> Array:
     """The mesh of so many intervals, or of these points, with every break a point of it; `ValueError` for what is none."""
     if np.ndim(mesh) == 0:  # type: ignore[arg-type]
-        return spread_out(whole("mesh", mesh, least=1), breaks)
+        n = whole("mesh", mesh, least=1)
+        if n > GIVEN:
+            raise ValueError(f"mesh must have at most {GIVEN} intervals; it is {str(n)[:20]}")
+        return spread_out(n, breaks)
     points = vector("mesh", mesh)
     if points.size < 2 or points[0] != 0 or points[-1] != 1 or not (np.diff(points) > 0).all():
         raise ValueError(f"mesh must be a number of intervals or ascending points from 0 to 1; it is {mesh!r:.60}")
@@ -39,8 +43,8 @@ def spread_out(n: int, breaks: Array) -> Array:
 def equidistributed(mesh: Array, errors: Array, aim: float, order: int, breaks: Array) -> Array:
     """A mesh on which the errors (N,) of the intervals of `mesh`, each of this order, sum to about `aim`.
 
-    Coarser where they allow it, finer where they ask for it, by at most a factor of 8 at a time.
-    Raises `ValueError` where more than 20 000 intervals would be needed.
+    Coarser where they allow it, finer where they ask for it, by at most a factor of 8 at a time, and of about 4000 intervals
+    at most, whatever they ask for.
 
     >>> equidistributed(np.array([0.0, 0.5, 1.0]), np.array([1e-4, 1e-12]), 1e-6, 4, np.array([])).round(2)
     array([0.  , 0.1 , 0.19, 0.29, 0.39, 0.49, 1.  ])
@@ -48,6 +52,7 @@ def equidistributed(mesh: Array, errors: Array, aim: float, order: int, breaks: 
     root = np.maximum(errors, 1e-300) ** (1 / order)
     parts = (float(root.sum()) / aim) ** (1 / (order - 1)) * root
     parts = _smoothed(np.clip(parts, 1 / CUT, CUT) / np.diff(mesh)) * np.diff(mesh)
+    parts *= min(1.0, MOST / float(parts.sum()))
     cuts = np.concatenate([[0.0], breaks, [1.0]])
     reached = np.append(0.0, np.cumsum(parts))
     points = [np.array([0.0])]
@@ -56,10 +61,7 @@ def equidistributed(mesh: Array, errors: Array, aim: float, order: int, breaks: 
         n = max(1, int(np.ceil(high - low - 1e-9)))
         inner = np.interp(low + (high - low) * np.arange(1, n) / n, reached, mesh)
         points.append(np.append(inner, b))
-    new = np.concatenate(points)
-    if new.size > MOST:
-        raise ValueError(f"a mesh of {new.size - 1} intervals would be needed; at most {MOST} are made")
-    return new
+    return np.concatenate(points)
 
 
 def _smoothed(density: Array) -> Array:

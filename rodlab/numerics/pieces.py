@@ -16,6 +16,7 @@ DEGREE = 16
 LOOKS = 16  # equal parts that are looked at
 TAIL = 1e-7
 NARROW = 2.0**-40  # width of a piece that holds a break
+POLE = 1e8  # what grows to so many times its usual size has no bound
 SMALL = 2.0**-24  # width below which what is rough is told from what is steep
 
 
@@ -48,6 +49,7 @@ def _split(f: Callable[[Array], Array], cuts: Array, tail: float, degree: int) -
     x, to_coefficients = _chebyshev(degree)
     left, right = cuts[:-1], cuts[1:]
     edges, rough = [cuts], list[Array]()
+    largest = float(np.median(np.abs(f((left + right) / 2)))) or 1.0
     while left.size:
         h = right - left
         inside = np.maximum(1e-13 * h, 2 * np.spacing(np.maximum(np.abs(left), np.abs(right))))
@@ -57,6 +59,8 @@ def _split(f: Callable[[Array], Array], cuts: Array, tail: float, degree: int) -
         bad = last > tail * np.abs(values).max(axis=1)
         narrow = h <= NARROW
         rough.append(((left + right) / 2)[bad & narrow])
+        if np.abs(values[bad & narrow]).max(initial=0.0) > POLE * largest:
+            raise ValueError(f"it has a pole near s = {float(rough[-1][0]):.6g}")
         left, right = left[bad & ~narrow], right[bad & ~narrow]
         middle = (left + right) / 2
         edges.append(middle)
