@@ -77,8 +77,9 @@ _HOME = {
 }
 
 __all__ = [  # the same names; a test compares
-    "Bordered", "Branch", "Buckling", "Elastica", "Equations", "Event", "Invariants", "Newton", "NoConvergence", "Point", "Rod", "Shape",
-    "Strut", "Term", "Tridiagonal", "branch", "branch_point", "buckling", "buckling_loads", "conjugate_points", "elastica", "end_torque",
+    "Bordered", "Branch", "Buckling", "Elastica", "Equations", "Event", "Invariants", "Newton", "NoConvergence", "Point", "Rod",
+    "Shape", "Strut", "Term", "Tridiagonal", "branch", "branch_point", "buckling", "buckling_loads", "conjugate_points",
+    "elastica", "end_torque",
     "equilibrium", "factor", "fold", "follow", "foundation", "invariants", "read", "self_weight", "steepest_descent",
     "switch", "term", "uniqueness", "vary",
 ]  # fmt: skip

@@ -20,7 +20,7 @@ WELCOME = f"""rodlab {__version__}: a teaching laboratory for elastic rods
 
 Five commands to try:
   rodlab tour                                     the strut: branches, buckling loads and shapes, as n grows
-  rodlab buckling -n 400 --rule trapezoid --K "(1+s)**2"      buckling loads, with error bounds
+  rodlab buckling --model rod --K "(1+s)**2"      buckling loads, with error bounds; -n 400 for a strut
   rodlab follow -n 100 --u-hat 0.01 --to 30       a branch with its events; --mode 1 for the one that buckles
   rodlab scenes                                   the situations of the notes by name
   rodlab run imperfect --out imperfect            one of them: branches, events, picture and data

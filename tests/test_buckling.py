@@ -19,7 +19,7 @@ def uniform(n, rule, j):
 
 def assert_good(buckling, exact, tolerance):
     """Within the tolerance, within its own bound, and the bound not idle."""
-    n = buckling.strut.n
+    n = buckling.model.n
     for load, error, truth in zip(buckling.loads, buckling.error, exact, strict=True):
         off = float(abs(mp.mpf(float(load)) - truth))
         assert off <= tolerance * float(truth)

@@ -345,8 +345,8 @@ def toured(tmp_path_factory):
 def test_the_tour_tells_and_writes(toured):
     _, out, folder = toured
     names = {path.name for path in folder.iterdir()}
-    data = {"loads.csv", "equilibria.csv", "branches.csv", "tour.json"}
-    assert names == {"diagram.png", "loads.png", "shapes.png"} | data
+    data = {"loads.csv", "routes.csv", "equilibria.csv", "branches.csv", "tour.json"}
+    assert names == {"diagram.png", "loads.png", "routes.png", "shapes.png"} | data
     assert (folder / "loads.png").read_bytes().startswith(b"\x89PNG")
     assert 'rule "trapezoid"' in out
     assert "rod, exact" in out
@@ -400,3 +400,34 @@ def test_a_killed_tour_leaves_no_broken_file(tmp_path, toured):
             process.wait()
         assert json.loads((tmp_path / "tour.json").read_text())["schema"] == 1
         assert (tmp_path / "loads.png").read_bytes()[-8:] == b"IEND\xaeB`\x82"
+
+
+def test_the_rod_on_the_command_line(capsys):
+    assert cli.main(["buckling", "--model", "rod", "--K", "(1+s)**2", "--modes", "2", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["model"] == "rod"
+    assert answer["loads"][0] == pytest.approx(3.836376917668575, rel=1e-12)
+    assert all(error < 1e-11 for error in answer["error"])
+    assert cli.main(["follow", "--model", "rod", "--u-hat", "0.01", "--to", "4", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["points"][-1]["lam"] == 4.0
+    assert answer["points"][-1]["error"] < 1e-9
+    assert cli.main(["follow", "--model", "rod", "--mode", "1", "--to", "5", "--mesh", "6", "--degree", "8"]) == 0
+    assert "2.190662" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--model", "rod", "-n", "10"], "n must not be given for a rod"),
+        (["--degree", "3"], "degree must not be given for a strut"),
+        (["--model", "rod", "--degree", "0"], "degree must be"),
+        (["--model", "rod", "--mesh", "-1"], "mesh must be"),
+        (["--model", "rod", "--tol", "0"], "tol must be"),
+        (["--model", "rod", "--K", "s - 2"], "K must be positive"),
+        (["--model", "rod", "--K", "foo"], "K: 'foo' is not an expression"),
+    ],
+)
+def test_wrong_options_of_a_rod(capsys, options, said):
+    assert cli.main(["buckling", *options]) == 2
+    assert said in capsys.readouterr().err

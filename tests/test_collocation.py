@@ -95,7 +95,10 @@ def test_order_is_twice_the_degree(degree, meshes, within):
     """Mode 2 at four times its load, tip angle against the elastica, above the floor."""
     exact = rl.elastica(4 * (1.5 * np.pi) ** 2, mode=2)
     fine = rl.equilibrium(rl.Rod(mesh=60), exact.lam, elastica_guess(exact))
-    errors = [abs(rl.equilibrium(rl.Rod(mesh=N, degree=degree), exact.lam, fine_guess(fine)).tip_angle - exact.tip_angle) for N in meshes]
+    errors = [
+        abs(rl.equilibrium(rl.Rod(mesh=N, degree=degree), exact.lam, fine_guess(fine)).tip_angle - exact.tip_angle)
+        for N in meshes
+    ]
     assert errors[1] > 3e-14  # above the floor of rounding
     observed = np.log(errors[0] / errors[1]) / np.log(meshes[1] / meshes[0])
     assert abs(observed - 2 * degree) < within
@@ -140,14 +143,18 @@ def test_collocation_that_does_not_converge_says_so():
 
     wild = System(lambda s, y: np.stack([1 + y[0] ** 2]) * 10, lambda s, y: np.stack([[20 * y[0]]]))
     with pytest.raises(ArithmeticError, match="collocation"), np.errstate(all="ignore"):
-        collocate(wild, (np.array([[1.0]]), np.array([0.0])), (np.zeros((0, 1)), np.zeros(0)), np.linspace(0, 1, 4), 2, np.ones((1, 4)))
+        collocate(
+            wild, (np.array([[1.0]]), np.array([0.0])), (np.zeros((0, 1)), np.zeros(0)), np.linspace(0, 1, 4), 2, np.ones((1, 4))
+        )
 
 
 # --- meshes ------------------------------------------------------------------------------------------------------
 
 
 @settings(max_examples=50, deadline=None)
-@given(st.lists(st.floats(1e-14, 1.0), min_size=3, max_size=30), st.floats(1e-12, 1e-2), st.lists(st.floats(0.01, 0.99), max_size=3))
+@given(
+    st.lists(st.floats(1e-14, 1.0), min_size=3, max_size=30), st.floats(1e-12, 1e-2), st.lists(st.floats(0.01, 0.99), max_size=3)
+)
 def test_breaks_are_points_of_every_mesh(errors, aim, breaks):
     breaks = np.unique(breaks)
     mesh = given_mesh(len(errors), breaks)

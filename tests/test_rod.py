@@ -186,8 +186,9 @@ def test_error_estimates_of_random_problems():
     for i in range(200):
         rod = _random_rod(rng)
         lam = float(rng.choice([rng.uniform(-500, 0), rng.uniform(0, 30), rng.uniform(0, 3)]))
+        amplitude = float(rng.uniform(-2, 2))
         try:
-            p = rl.equilibrium(rod, lam, lambda s, a=float(rng.uniform(-2, 2)): a * np.sin(np.pi * s / 2))
+            p = rl.equilibrium(rod, lam, lambda s, a=amplitude: a * np.sin(np.pi * s / 2))
         except rl.NoConvergence:
             continue
         known = p.equations
@@ -417,7 +418,11 @@ def test_what_is_no_rod_is_said_in_one_sentence(arguments, said):
 
 def test_wrong_guesses_and_states():
     rod = rl.Rod(mesh=4, degree=2)
-    for call in (lambda: rl.equilibrium(rod, 1.0, [1.0]), lambda: rod.gradient(np.zeros(3), 1.0), lambda: rod.energy(np.full(8, np.nan), 1.0)):
+    for call in (
+        lambda: rl.equilibrium(rod, 1.0, [1.0]),
+        lambda: rod.gradient(np.zeros(3), 1.0),
+        lambda: rod.energy(np.full(8, np.nan), 1.0),
+    ):
         with pytest.raises(ValueError, match=r"must have shape|must be finite"):
             call()
     with pytest.raises(ValueError, match="straight"):

@@ -30,9 +30,6 @@ from rodlab.numerics.arrays import Array, number
 from rodlab.numerics.inertia import Inertia
 from rodlab.numerics.nullspace import near_null
 
-TURN = 0.8  # least cosine between the tangents at the ends of a step
-MISS = 0.1  # greatest error of a prediction, as a part of the step
-AIM = 0.01  # the error that the next step aims at
 GROWTH = 3.0  # longest step after a step
 MOST = 200  # lengths tried for one step
 REFUSED = 8  # refusals for open parts, step after step, before what stays open is checked instead
@@ -53,7 +50,8 @@ class Step(NamedTuple):
 
 
 def branch(
-    p: Point, step: float = 0.1, *, toward: float | None = None, natural: bool = False, scale: float | None = None, bare: bool = False
+    p: Point, step: float = 0.1, *, toward: float | None = None, natural: bool = False, scale: float | None = None,
+    bare: bool = False,
 ) -> Iterator[Point]:  # fmt: skip
     """The points of the branch through p, p itself left out: endless and lazy.
 
@@ -79,6 +77,19 @@ def _points(walk: "Walk") -> Iterator[Point]:
         yield walk.advance().point
 
 
+class Pace(NamedTuple):
+    """How far a step may go: least cosine between the tangents at its ends, greatest error of its prediction as a part of its
+    length, and the error that the next step aims at.
+    """
+
+    turn: float
+    miss: float
+    aim: float
+
+
+CAREFUL, BARE = Pace(0.8, 0.1, 0.01), Pace(0.3, 1.0, 0.3)
+
+
 class Remeshed(NoConvergence):
     """The mesh did not serve at the end of the step; the same step is tried again on a better one."""
 
@@ -95,7 +106,7 @@ class Walk:
         self.longest = math.inf if step is None else min(number("step", step, above=0.0), 1e100)
         size = _scale(p, step, toward) if scale is None else number("scale", scale, above=0.0)
         self._stand_on(Curve(p.equations, size, wide=not bare))
-        self.natural, self.bare = natural, bare
+        self.natural, self.bare, self.pace = natural, bare, BARE if bare else CAREFUL
         if not bare:
             check_derivatives(p.equations, p.u, p.lam)
         y = np.append(p.u, p.lam)
@@ -201,17 +212,19 @@ class Walk:
         guess = self._predicted(s, row)
         found = curve.correct(guess, row)
         miss = self._miss(found.y, guess, s)
-        if miss > MISS:
+        if miss > self.pace.miss:
             raise NoConvergence(f"the prediction was wrong by {miss:.2g} of the step", found.history)
-        segment = Segment(here.y, here.tangent, found.y, curve.tangent(found.y, here.tangent, found.solver if self.bare else None), row)
+        segment = Segment(
+            here.y, here.tangent, found.y, curve.tangent(found.y, here.tangent, found.solver if self.bare else None), row
+        )
         if not self.bare:
             self._serves(found.y, segment.tb)
         turn = curve.dot(here.tangent, segment.tb)
-        if not turn > TURN:
+        if not turn > self.pace.turn:
             raise NoConvergence(f"the tangent turned by {math.degrees(math.acos(max(-1.0, min(1.0, turn)))):.0f} degrees", ())
         step = self._taken(segment, found) if self.bare else self._shown(segment, found, patience)
         self.before, self.here = here, step.b
-        self.length = min(self.longest, s * min(GROWTH, max(0.3, (AIM / max(miss, 1e-12)) ** (1 / 3))))
+        self.length = min(self.longest, s * min(GROWTH, max(0.3, (self.pace.aim / max(miss, 1e-12)) ** (1 / 3))))
         return step
 
     def _miss(self, y: Array, guess: Array, s: float) -> float:

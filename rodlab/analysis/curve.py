@@ -123,7 +123,7 @@ class Curve:
         return np.append(weight * u, t[-1] / self.scale**2)
 
     def tangent(self, y: Array, toward: Array, solver: OneBorder | None = None) -> Array:
-        """The unit tangent at a solution y, on the side of the direction `toward`; by a bordered matrix of next to y, if given."""
+        """The unit tangent at a solution y, on the side of the direction `toward` (by a matrix of next to y, if given)."""
         row = self.row(toward / self.norm(toward))
         solver = self._solver(y, row, []) if solver is None else solver
         side = np.zeros_like(y)
@@ -198,9 +198,7 @@ class Curve:
         except (ValueError, ArithmeticError) as error:
             raise NoConvergence(f"the derivatives cannot be used: {error}", tuple(history)) from error
 
-    def _corrected(
-        self, y: Array, step: Array, left: float, history: list[NewtonStep], solver: OneBorder | None
-    ) -> Corrected:
+    def _corrected(self, y: Array, step: Array, left: float, history: list[NewtonStep], solver: OneBorder | None) -> Corrected:
         size = self.norm(step)
         remaining = left * float(np.abs(step[:-1]).max(initial=0.0)) / size if size else 0.0
         return Corrected(y, tuple(history), remaining, solver)

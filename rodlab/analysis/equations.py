@@ -9,6 +9,12 @@ Four methods suffice. What more a model knows it tells by further members, each 
     start             u from a guess, None for the natural one
     nodes, shape      s, phi and x, z of one shape; or shape_at(u, lam) -> (s, phi, x, z)
     rounding          bound on v . (computed residual - exact)  the error of a point
+    residual_wide     the residual to more digits               the last corrections see it
+    seen              what of du the bounds of `lipschitz` are in
+    adapted           (u, lam, tangent) -> the same problem on a better mesh with u and tangent on it, None where its own serves;
+                      with `moved`, `suited`, `mesh`, `on_points`: each point of a branch carries its own equations
+    error, inertia    of a point, where meshes are compared for them; `missed`: what a mesh misses of v.F and v.Jv
+    between           phi, x, z at any s
     recipe            plain data that make it again             a saved branch can be read with its model
     vary              (name, lam) -> the same model             another parameter in the load's place
 

@@ -30,22 +30,21 @@ def equilibrium(model: Equations, lam: float, guess: Any = None, *, limit: int =
     (1.895494267034, 0, True)
     """
     lam, limit = number("lam", lam), whole("limit", limit, least=1)
-    last: NoConvergence | None = None
-    for finer in (FINER if callable(guess) and hasattr(model, "suited") else FINER[:1]):
-        suited = getattr(model, "suited", None)
+    tried: list[tuple[Any, Array, Newton, NoConvergence]] = []
+    suited = getattr(model, "suited", None)
+    for finer in FINER if callable(guess) and suited is not None else FINER[:1]:
         own = model if suited is None else suited(guess, finer)
         u, run = started(own, guess), Newton.at(own, lam, limit)
         try:
             root = run.solve(u)
             return on_its_mesh(Point(own, lam, root.u, root.history, root.remaining))
         except NoConvergence as failure:
-            first, last = (own, u, run) if last is None else first, failure
-    assert last is not None
-    if not has_energy(model):
-        raise last
-    model, u, run = first
-    root = downhill(model, lam, u, run)
-    return on_its_mesh(Point(model, lam, root.u, (*last.history, *root.history), root.remaining), down=True)
+            tried.append((own, u, run, failure))
+    own, u, run, failed = tried[0]
+    if not has_energy(own):
+        raise failed
+    root = downhill(own, lam, u, run)
+    return on_its_mesh(Point(own, lam, root.u, (*failed.history, *root.history), root.remaining), down=True)
 
 
 def on_its_mesh(p: Point, *, down: bool = False) -> Point:

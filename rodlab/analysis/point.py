@@ -117,7 +117,7 @@ class Point:
         return self._shape.z
 
     def __call__(self, s: Any) -> Shape:
-        """The shape at arclengths s, between the nodes linear or as the model knows it; raises `ValueError` outside of the rod."""
+        """The shape at arclengths s, between the nodes linear or as the model knows it; `ValueError` outside of the rod."""
         s = np.asarray(s, dtype=np.float64)
         own = self._shape
         between = getattr(self.equations, "between", None)

@@ -93,7 +93,7 @@ def _simple(curve: Curve, event: Event, y: Array, null: NearNull) -> list[Point]
 
 
 def _aside(curve: Curve, y: Array, across: Array, parent: Array) -> Point | None:
-    """A solution a distance FIRST aside of a branch point, by way of one half as far; None where it is not on a curve through both."""
+    """A solution a distance FIRST aside of a branch point, by way of one half as far; None where no curve passes both."""
     row = curve.row(across)
     try:
         near = curve.correct(y + FIRST / 2 * across, row, limit=12).y

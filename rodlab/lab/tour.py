@@ -129,8 +129,8 @@ def _columns(rows: Sequence[dict[str, Any]]) -> tuple[list[str], list[list[Any]]
 
 
 def _text(
-    answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found], shown: Sequence[Shown],
-    rod: Buckling, routed: Sequence[Route],
+    answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found],
+    shown: Sequence[Shown], rod: Buckling, routed: Sequence[Route],
 ) -> str:  # fmt: skip
     parts = [*(_loads_table(rule, loads, limits, rod) for rule in RULES), _routes_table(routed)]
     parts.append(

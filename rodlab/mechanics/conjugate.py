@@ -23,17 +23,20 @@ BIG = 1e150
 def conjugate_points(p: Any) -> Array:
     """Arclengths of the conjugate points of an equilibrium of a strut or rod, ascending; their number is its index.
 
+    They are placed between neighbouring nodes by a line: good to the square of the nodes' distance, without an estimate.
     Raises `ValueError` for another model, or a strut whose Hessian is full.
 
     >>> from rodlab.analysis.equilibrium import equilibrium
     >>> conjugate_points(equilibrium(Rod(), 30.0)).round(6)      # straight: w = cos(sqrt(lam) (1 - s)), zeros at odd quarters
-    array([0.139644, 0.713215])
+    array([0.139639, 0.713214])
     """
     model, matrix = p.equations, None
     if isinstance(model, (Strut, Rod)):
         matrix = model.hessian(p.u, p.lam)
     if matrix is None or isinstance(matrix, Full):
-        raise ValueError(f"p must be an equilibrium of a strut or rod whose second variation is local; its model is {model!r:.60}")
+        raise ValueError(
+            f"p must be an equilibrium of a strut or rod whose second variation is local; its model is {model!r:.60}"
+        )
     if isinstance(matrix, Collocated):
         known = matrix.condensed()
         S = known.S

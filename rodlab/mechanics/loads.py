@@ -80,13 +80,13 @@ class Pencil:
             inverse = np.linalg.inv(inner)
         except np.linalg.LinAlgError:  # an interval by itself has buckled
             return None
-        F = inverse @ coupling
+        F = np.asarray(inverse @ coupling)
         k = np.einsum("ni,ni->n", coupling[:, :, 0], F[:, :, 1]) - blocks[:, 0, -1]
         rest = -lam * mass.sum(axis=2)
         ends = rest[:, [0, -1]] - (rest[:, None, 1:-1] @ F)[:, 0]
         c = -ends[:, 1]
         c[:-1] -= ends[1:, 0]
-        return DifferenceForm(Springs(k), c), F, inverse
+        return DifferenceForm(Springs(k), c), F, np.asarray(inverse)
 
     def below(self, lam: float) -> tuple[int, int]:
         """Loads certainly below this one, and those that may be."""
@@ -199,7 +199,7 @@ def _found(pencil: Pencil, j: int, low: float, high: float) -> Load:
 
 def _nearest(pencil: Pencil, low: float, high: float) -> tuple[float, float, Array]:
     """The load nearest to the middle, found from a vector with something of every mode."""
-    n = pencil.mass.shape[0] * pencil.grid.degree
+    n = pencil.grid.N * pencil.grid.degree
     w = np.cos(1.7 * np.arange(n) ** 1.5) + 0.3
     load, _, w = pencil.iterated((low + high) / 2, w, 4, fixed=True)
     return pencil.iterated(load, w, 40) if low < load < high else (load, np.inf, w)

@@ -114,7 +114,7 @@ def rod_recipe_of(arguments: Mapping[str, Any], terms: Sequence[Term]) -> dict[s
 
 def said_of_rod(arguments: Mapping[str, Any], terms: Sequence[Term]) -> str:
     """A rod's arguments as its repr says them: K, u_hat, and what is not as usual."""
-    usual = {"phi0": 0.0, "degree": 6, "mesh": None, "tol": 1e-10}
+    usual: dict[str, Any] = {"phi0": 0.0, "degree": 6, "mesh": None, "tol": 1e-10}
     said = [f"{name}={arguments[name]!r}" for name in ("K", "u_hat")]
     said += [f"{name}={arguments[name]!r}" for name, value in usual.items() if not np.array_equal(arguments[name], value)]
     return ", ".join(said) + (f", terms={tuple(terms)!r}" if terms else "")

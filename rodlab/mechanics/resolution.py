@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 KEEP, AIM = 3e-3, 3e-4  # of tol, and of the largest angle where that is small
 SMALLEST = 1e-2  # an angle counted as small at most
 SAME = 1e-4  # relative difference of loads at which two meshes are compared
-SPARE = 0.1  # of AIM tol: below it a coarser mesh is tried
+SPARE = 0.5  # of AIM tol: below it a coarser mesh is tried
 FEWER = 0.6  # of the intervals: a coarser mesh is worth its while
 FAR = 0.5  # a correction of the angles, in radians, that tells nothing but that the mesh is too coarse
 FINE, PIECE = 1e-10, 12  # to which a guess is represented, and by which degree

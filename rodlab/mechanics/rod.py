@@ -79,14 +79,14 @@ class Rod:
         self.curved = self.profiles["u_hat"].constant != 0.0
         bend = BENDING_WITH_REST if self.curved else BENDING
         self.loaded, self._unloaded = (bend, END_LOAD, *self.terms), (bend, *self.terms)
-        self.breaks, self.pieces = self._pieces(declared)
+        self.breaks, self.pieces = self._pieces()
         self.adapts, self.expected = mesh is None, (0.0, np.inf)  # the load at which this mesh was made, and errors below
         self.stuck = 0.0  # errors which a finer mesh does not mend
         first = np.union1d(spread_out(FIRST, self.breaks), self.pieces) if mesh is None else given_mesh(mesh, self.breaks)
         self._collocate(first, degree)
         self.kernel()  # what a term of one's own lacks is said at once
 
-    def _pieces(self, declared: tuple[float, ...]) -> tuple[Array, Array]:
+    def _pieces(self) -> tuple[Array, Array]:
         """The breaks, declared and found, and the edges of the pieces on which every property is smooth."""
         said = {b for profile in self.profiles.values() for b in profile.breaks if 0 < b < 1}
         edges = np.array([0.0, *sorted(said), 1.0])

@@ -6,6 +6,7 @@ K and in u_hat; the clamp's angle enters as the first node does.
 
 from collections.abc import Callable, Sequence
 from copy import copy
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -119,8 +120,7 @@ class VariedRod:
         """d(gradient)/d(value), shape (N m,)."""
         rod = self._at(value)
         if self.name == "phi0":
-            matrix = _first_column(rod, u, self.lam)
-            return matrix
+            return _first_column(rod, u, self.lam)
         W, grid = rod.kernel(self.lam), rod.grid
         angle, slope = grid.at_gauss(grid.nodal(u, rod.phi0))
         m, f = getattr(W, f"moments_{self.name}")(slope, angle, self.lam, **rod.given(W))
@@ -136,8 +136,10 @@ class VariedRod:
     @property
     def measures(self) -> dict[str, Callable[[Array, float], float]]:
         """The rod's, at the fixed load."""
-        names = self.rod.measures
-        return {name: lambda u, value, name=name: self._at(value).measures[name](u, self.lam) for name in names}
+        return {name: partial(self._measure, name) for name in self.rod.measures}
+
+    def _measure(self, name: str, u: Array, value: float) -> float:
+        return float(self._at(value).measures[name](u, self.lam))
 
     def seen(self, u: Array) -> Array:
         """As the rod's."""
@@ -148,7 +150,11 @@ class VariedRod:
         if self.name not in ("u_hat", "tau"):
             return rod_bounds.unknown
         bound = self._at(value).lipschitz(u, self.lam)
-        return lambda moved, _: (bound(moved, 0.0)[0], 0.0)
+
+        def unmoved(moved: Any, _: float) -> tuple[Any, Any]:
+            return bound(moved, 0.0)[0], 0.0
+
+        return unmoved
 
     def embedding(self, value: float) -> tuple[float, float]:
         """As the rod's."""

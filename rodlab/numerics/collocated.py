@@ -14,7 +14,7 @@ Cost: O(N m^2) a solve, O(N m^3) a factor.
 """
 
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import lapack
@@ -84,7 +84,7 @@ class Collocated(Symmetric):
     @property
     def diagonal(self) -> Array:
         """Diagonal entries, shape (N m,)."""
-        return np.einsum("iaa->ia", self.blocks)[:, 1:].ravel()
+        return np.asarray(np.einsum("iaa->ia", self.blocks)[:, 1:].ravel())
 
     def toarray(self) -> Array:
         """The dense matrix."""
@@ -148,8 +148,8 @@ class Collocated(Symmetric):
             inverse = np.linalg.inv(B[:, 1:m, 1:m])
         except np.linalg.LinAlgError as error:
             raise ArithmeticError("an interval's inner nodes cannot be condensed: its own problem is singular") from error
-        F = inverse @ coupling
-        return Condensed(ends - coupling.transpose(0, 2, 1) @ F, F, inverse)
+        F = np.asarray(inverse @ coupling)
+        return Condensed(ends - coupling.transpose(0, 2, 1) @ F, F, np.asarray(inverse))
 
     def inertia(self, slack: Array | float | Slack = 0.0) -> Inertia:
         """Signs of the eigenvalues of every symmetric matrix within a slack, and rounding, of this one."""

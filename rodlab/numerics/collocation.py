@@ -1,4 +1,4 @@
-"""Piecewise polynomials of degree m on a mesh, seen at Gauss's points: what a boundary value problem is collocated with [N 2.8.2].
+"""Piecewise polynomials of degree m on a mesh, seen at Gauss's points: what boundary values are collocated with [N 2.8.2].
 
     0 = s_0 < s_1 < ... < s_N = 1      mesh, h_i = s_i - s_{i-1}
     Y (N, m+1)                         values of the polynomials at the nodes of each interval; neighbours share their ends
@@ -39,7 +39,8 @@ class Grid:
         B, kind = self.basis, np.longdouble if wide else np.float64
         self.kind: Any = kind
         self.h = np.diff(np.asarray(mesh, dtype=kind))
-        self.b, self.E, self.D = (B.wide_b, B.wide_E, B.wide_D) if wide else (B.b, B.E, B.D)
+        parts: tuple[Any, Any, Any] = (B.wide_b, B.wide_values, B.wide_slopes) if wide else (B.b, B.E, B.D)
+        self.b, self.E, self.D = parts
         self.hb = self.h[:, None] * self.b
         self.slope = np.ascontiguousarray(self.D[:, 1:].T)  # of differences to the first node: constants have none
 

@@ -3,7 +3,8 @@
     Y_a = y_i + h sum_b A_ab f(c_b, Y_b),   y_{i+1} = y_i + h sum_b b_b f(c_b, Y_b)        on each interval: Gauss's method
     L y(0) = l,   R y(1) = r                                                               d conditions for d unknowns
 
-Newton's method, the stages Y condensed: (I - h A x J) dY = ... is solved interval by interval, which leaves dy_{i+1} = G_i dy_i + g_i.
+Newton's method, the stages Y condensed: (I - h A x J) dY = ... is solved interval by interval, which leaves
+dy_{i+1} = G_i dy_i + g_i.
 What couples the mesh points is almost block diagonal [Ascher, Mattheij and Russell, 7.2]:
 
     [ L          ]
@@ -66,7 +67,7 @@ def collocate(
 def _condensed(
     system: System, mesh: Array, h: Array, degree: int, y: Array, stages: Array
 ) -> tuple[Array, Array, Array]:  # fmt: skip
-    """Stages in balance with y at the left ends, and the map to the right ends: dy_{i+1} = G_i dy_i + g_i; (d, N, m), (N, d, d), (N, d)."""
+    """Stages in balance with the left ends (d, N, m), and the map to the right ends: G (N, d, d), g (N, d)."""
     B, (d, N, m) = basis(degree), stages.shape
     s = (mesh[:-1, None] + h[:, None] * B.c).ravel()
     for _ in range(3):
@@ -86,16 +87,16 @@ def _condensed(
 def _almost_block(left: tuple[Array, Array], right: tuple[Array, Array], G: Array, g: Array, y: Array) -> Array:
     """The corrections (d, N+1) of the mesh points."""
     N, d = g.shape
-    (L, l), (R, r) = left, right
-    top, order = l.size, (N + 1) * d
+    (L, low), (R, high) = left, right
+    top, order = low.size, (N + 1) * d
     rows = np.zeros((order, 3 * d))  # row k, columns from that of its block's first unknown
     known = np.zeros(order)
-    rows[:top, :d], known[:top] = L, l - L @ y[:, 0]
+    rows[:top, :d], known[:top] = L, low - L @ y[:, 0]
     for i in range(N):
         at = slice(top + i * d, top + (i + 1) * d)
         rows[at, :d], rows[at, d : 2 * d], known[at] = G[i], -np.eye(d), -g[i]
-    rows[order - r.size :, :d], known[order - r.size :] = R, r - R @ y[:, -1]
-    first = np.concatenate([np.zeros(top), np.repeat(np.arange(N) * d, d), np.full(r.size, N * d)]).astype(int)
+    rows[order - high.size :, :d], known[order - high.size :] = R, high - R @ y[:, -1]
+    first = np.concatenate([np.zeros(top), np.repeat(np.arange(N) * d, d), np.full(high.size, N * d)]).astype(int)
     wide = 2 * d
     band = np.zeros((2 * wide + 1, order))
     for k in range(order):

@@ -28,8 +28,8 @@ class Basis:
     wide_c: Wide
     wide_b: Wide
     wide_nodes: Wide
-    wide_E: Wide
-    wide_D: Wide
+    wide_values: Wide
+    wide_slopes: Wide
 
     @cached_property
     def c(self) -> Array:
@@ -49,17 +49,17 @@ class Basis:
     @cached_property
     def E(self) -> Array:
         """Values at Gauss's points."""
-        return _double(self.wide_E)
+        return _double(self.wide_values)
 
     @cached_property
     def D(self) -> Array:
         """Derivatives at Gauss's points."""
-        return _double(self.wide_D)
+        return _double(self.wide_slopes)
 
     @cached_property
     def weights(self) -> Array:
         """Integrals of the nodes' Lagrange polynomials, all positive: Lobatto's weights."""
-        return _double(self.wide_b @ self.wide_E)
+        return _double(self.wide_b @ self.wide_values)
 
     @cached_property
     def to_nodes(self) -> Array:

@@ -4,6 +4,7 @@ An interval i with error e_i of order q, cut into n_i, leaves n_i e_i n_i^{-q}. 
 `aim` have n_i = c e_i^{1/q}, c^{q-1} = sum_i e_i^{1/q} / aim. A mesh is built with this density; breaks stay points of it.
 """
 
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
@@ -36,7 +37,7 @@ def spread_out(n: int, breaks: Array) -> Array:
     array([0.  , 0.25, 0.5 , 0.75, 1.  ])
     """
     cuts = np.concatenate([[0.0], breaks, [1.0]])
-    parts = [np.linspace(a, b, max(1, round(n * (b - a))) + 1)[:-1] for a, b in zip(cuts[:-1], cuts[1:], strict=True)]
+    parts = [np.linspace(a, b, max(1, round(n * (b - a))) + 1)[:-1] for a, b in itertools.pairwise(cuts)]
     return np.append(np.concatenate(parts), 1.0)
 
 
@@ -56,7 +57,7 @@ def equidistributed(mesh: Array, errors: Array, aim: float, order: int, breaks: 
     cuts = np.concatenate([[0.0], breaks, [1.0]])
     reached = np.append(0.0, np.cumsum(parts))
     points = [np.array([0.0])]
-    for a, b in zip(cuts[:-1], cuts[1:], strict=True):
+    for a, b in itertools.pairwise(cuts):
         low, high = np.interp([a, b], mesh, reached)
         n = max(1, int(np.ceil(high - low - 1e-9)))
         inner = np.interp(low + (high - low) * np.arange(1, n) / n, reached, mesh)

@@ -1,8 +1,8 @@
 """Where a function is smooth: the pieces between its jumps and kinks, found by splitting until a polynomial serves.
 
-On every sixteenth of the whole the Chebyshev coefficients of 17 samples, unless another degree is asked for, must fall off to a part `tail` of the function's size, or it is halved. A piece that had to
-be halved to nothing holds a jump or a kink: a break, to be a point of every mesh. What is narrower than the distance of the
-samples, a hundredth of the whole, may be missed: declare it.
+On every sixteenth of the whole the Chebyshev coefficients of 17 samples (unless another degree is asked for) must fall off to a
+part `tail` of the function's size, or it is halved. A piece that had to be halved to nothing holds a jump or a kink: a break, to
+be a point of every mesh. What is narrower than the distance of the samples, a hundredth of the whole, may be missed: declare it.
 """
 
 from collections.abc import Callable
@@ -20,9 +20,7 @@ POLE = 1e8  # what grows to so many times its usual size has no bound
 SMALL = 2.0**-24  # width below which what is rough is told from what is steep
 
 
-def smooth_pieces(
-    f: Callable[[Array], Array], edges: Array, tail: float = TAIL, degree: int = DEGREE
-) -> tuple[Array, Array]:
+def smooth_pieces(f: Callable[[Array], Array], edges: Array, tail: float = TAIL, degree: int = DEGREE) -> tuple[Array, Array]:
     """(edges of the pieces, breaks found) of a function of an array on edges[0] <= s <= edges[-1].
 
     >>> pieces, breaks = smooth_pieces(lambda s: np.where(s < 0.3, 1.0, 2.0 + s), np.array([0.0, 1.0]))
