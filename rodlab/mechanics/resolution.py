@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from rodlab.mechanics.rod import Rod
 
 KEEP, AIM = 3e-3, 3e-4  # of tol, and of the largest angle where that is small
+DROWNED = 1e-4  # what an error hidden by rounding is taken for, as a part of it
 SMALLEST = 1e-2  # an angle counted as small at most
 SAME = 1e-4  # relative difference of loads at which two meshes are compared
 SPARE = 0.5  # of AIM tol: below it a coarser mesh is tried
@@ -38,6 +39,7 @@ FAR = 0.5  # a correction of the angles, in radians, that tells nothing but that
 FINE, PIECE = 1e-10, 12  # to which a guess is represented, and by which degree
 COARSE, LEVELS = 1e-7, 3  # an error from which on the companion is doubted, and companions that are asked in turn
 ROUNDED = 1e-6  # errors that may be rounding and no longer fall
+LONG = 250  # points of a mesh beyond which it is refined by halves
 HALVED = 512  # intervals of a mesh that is halved throughout, at most
 CHORD = 1e-8  # a correction of the angles after which the companion's derivative is as it was
 CANCEL = 1e-3  # part of the sum of all errors that is counted even where they cancel
@@ -196,7 +198,12 @@ def adapted(rod: "Rod", u: Array, lam: float, tangent: Array | None) -> "tuple[R
         return None
     if AIM * SPARE * rod.tol < total <= KEEP * rod.tol:
         return None
+    if total <= KEEP * rod.tol:
+        drowned = errors < 4 * EPS * max(float(np.abs(known.u).max()), 1.0)  # in rounding: how small they are is not known
+        errors = np.where(drowned, DROWNED * errors, errors)
     mesh = equidistributed(rod.mesh, errors, AIM * rod.tol, 2 * rod.degree + 1, rod.breaks)
+    if mesh.size > 2 * rod.mesh.size > LONG:  # errors that ask for so much may be rounding: one step at a time
+        mesh = _halved(rod.mesh)
     if total <= KEEP * rod.tol and mesh.size - 1 > FEWER * rod.grid.N:
         return None
     if total > KEEP * rod.tol and mesh.size <= rod.mesh.size and np.array_equal(mesh, rod.mesh):
