@@ -253,6 +253,9 @@ def _errors(rod: "Rod", u: Array, lam: float, known: Corrected) -> Array:
     errors = missed[:, 0] * np.append(0.0, turn[:-1]) + missed[:, 1] * turn
     rest = matrix.factor().solve(-np.asarray(Grid.gathered(own), dtype=np.float64))  # what Newton's method left undone
     turned = (known.first + known.second).reshape(N, -1)[:, -1] - rest.reshape(N, -1)[:, -1]
+    if float(np.abs(rest).max()) > CHORD:  # stiffness is compared where both are solved
+        u = u + rest
+        own_ends = rod.jacobian(u, lam).condensed()
     seen, total = float(np.abs(turned).max()), float(errors.sum())
     errors = errors * max(seen / total, CANCEL) if total > 0 else np.full(N, seen / N)
     if seen <= _noise(known, lam):  # no mesh does better
