@@ -9,7 +9,7 @@ from conftest import states, struts
 from hypothesis import given, settings
 
 import rodlab as rl
-from rodlab.mechanics import derive, standard
+from rodlab.mechanics import derive, ship, standard
 from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD
 from rodlab.numerics.difference import DifferenceForm
 from rodlab.numerics.full import Full
@@ -111,7 +111,7 @@ def test_from_joints_says_everything_itself():
 
 
 def test_the_shipped_kernels_are_those_derived():
-    assert Path(standard.__file__).read_text() == derive.standard_source()
+    assert Path(standard.__file__).read_text() == ship.standard_source()
 
 
 def test_what_is_absent_does_not_occur_in_the_kernel():

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any, Protocol
 
-from rodlab.mechanics.standard import KERNELS
+from rodlab.mechanics.standard import DENSITIES, KERNELS
 from rodlab.mechanics.terms import Term
 from rodlab.numerics.arrays import Array
 
@@ -37,6 +37,25 @@ def kernel(terms: Sequence[Term], *, weighted: bool) -> Kernel:
         if shipped is not None:
             return shipped
     return _derived(tuple((term.name, tuple(term.parameters), term.energy) for term in terms), weighted)
+
+
+def density(terms: Sequence[Term]) -> Any:
+    """The kernel of the limit of a sum of terms: functions of phi', phi, the load and the parameters, of any one shape."""
+    shipped = DENSITIES.get("limit_of_" + "_and_".join(term.name for term in terms))
+    if shipped is not None and all(term.energy is None for term in terms):
+        return shipped
+    return _derived_limit(tuple((term.name, tuple(term.parameters), term.energy) for term in terms))
+
+
+@lru_cache(maxsize=64)
+def _derived_limit(recipe: tuple[tuple[str, tuple[str, ...], Any], ...]) -> Any:
+    from rodlab.mechanics.derive import HEADER
+    from rodlab.mechanics.limit import limit
+
+    found = limit([Term(name, dict.fromkeys(names), energy) for name, names, energy in recipe])
+    namespace: dict[str, Any] = {}
+    exec("from numpy import *\n" + HEADER + found.source, namespace)  # noqa: S102  our own generated text
+    return namespace[found.name]
 
 
 @lru_cache(maxsize=64)

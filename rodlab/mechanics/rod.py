@@ -6,20 +6,20 @@
 Unknowns u (N m,): the angles at the nodes of a piecewise polynomial of degree m on a mesh of N intervals, the clamp's left out;
 u[-1] is the tip's. The equations are those of Gauss collocation of phi' = u_hat + m/K, m' = -lam sin phi, written as the gradient
 of the energy by Gauss's rule (`rodlab.numerics.collocation`): symmetric, with an index, of order 2m at mesh points.
-A mesh that is not given adapts (`rodlab.mechanics.resolution`): each point has the rod on its own mesh for its equations.
+A mesh that is not given adapts (`rodlab.mechanics.remesh`): each point has the rod on its own mesh for its equations.
 """
 
 from collections.abc import Callable, Sequence
 from copy import copy
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodlab.mechanics import resolution, rod_bounds
+from rodlab.mechanics import remesh, resolution, rod_bounds
+from rodlab.mechanics.kernels import density
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.recipe import changed, kept, rod_recipe_of, said_of_rod
-from rodlab.mechanics.standard import DENSITIES
 from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term, checked
 from rodlab.numerics.arrays import Array, number, vector, whole
 from rodlab.numerics.collocated import Collocated
@@ -176,11 +176,11 @@ class Rod:
 
     @cached_property
     def _with_load(self) -> Any:
-        return _density(self.loaded)
+        return density(self.loaded)
 
     @cached_property
     def _without_load(self) -> Any:
-        return _density(self._unloaded)
+        return density(self._unloaded)
 
     def given(self, kernel: Any) -> dict[str, Any]:
         """The parameters that a kernel asks for."""
@@ -313,11 +313,11 @@ class Rod:
 
     def adapted(self, u: Array, lam: float, tangent: Array | None = None) -> "tuple[Rod, Array, Array | None] | None":
         """The rod on a mesh that serves at (u, lam), with u and tangent on it; None where its own serves."""
-        return resolution.adapted(self, u, lam, tangent)
+        return remesh.adapted(self, u, lam, tangent)
 
     def suited(self, guess: Any, finer: int = 0) -> "Rod":
         """The rod on a mesh on which a guess, a function of s, can be represented, halved so many times."""
-        return resolution.suited(self, guess, finer)
+        return remesh.suited(self, guess, finer)
 
     def moved(self, other: "Rod", u: Array, *, direction: bool = False) -> Array:
         """Unknowns of the same rod on another mesh, or a direction among them, on this one."""
@@ -403,22 +403,3 @@ def _along_the_rod(name: str, given: Any, breaks: tuple[float, ...]) -> Profile:
     if profile.values is not None:
         raise ValueError(f"{name} of a rod must be a number, a function of s or an expression in s; it is {given!r:.60}")
     return profile
-
-
-@lru_cache(maxsize=64)
-def _derived(recipe: tuple[tuple[str, tuple[str, ...], Any], ...]) -> Any:
-    from rodlab.mechanics.derive import HEADER
-    from rodlab.mechanics.limit import limit
-
-    found = limit([Term(name, dict.fromkeys(names), energy) for name, names, energy in recipe])
-    namespace: dict[str, Any] = {}
-    exec("from numpy import *\n" + HEADER + found.source, namespace)  # noqa: S102  our own generated text
-    return namespace[found.name]
-
-
-def _density(terms: Sequence[Term]) -> Any:
-    """The kernel of the limit of a sum of terms; SymPy is imported only when it is not among the shipped ones."""
-    shipped = DENSITIES.get("limit_of_" + "_and_".join(term.name for term in terms))
-    if shipped is not None and all(term.energy is None for term in terms):
-        return shipped
-    return _derived(tuple((term.name, tuple(term.parameters), term.energy) for term in terms))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodlab.mechanics import resolution, rod_bounds
+from rodlab.mechanics import remesh, rod_bounds
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.terms import BENDING_WITH_REST, END_LOAD
 from rodlab.numerics.arrays import Array, number
@@ -178,7 +178,7 @@ class VariedRod:
 
     def adapted(self, u: Array, value: float, tangent: Array | None = None) -> "tuple[VariedRod, Array, Array | None] | None":
         """The same on a mesh that serves; None where its own does."""
-        better = resolution.adapted(self._at(value), u, self.lam, tangent)
+        better = remesh.adapted(self._at(value), u, self.lam, tangent)
         return None if better is None else (self._on(better[0]), better[1], better[2])
 
     def moved(self, other: "VariedRod", u: Array, *, direction: bool = False) -> Array:
