@@ -349,6 +349,24 @@ def test_loads_across_a_jump(ratio):
     _agree(b, _mpmath_loads(matched, b.loads))
 
 
+def test_a_stiff_short_end_piece_hides_nothing():
+    """Springs over eleven decades: a solve with their sums would be wrong by more than the bound."""
+    import mpmath as mp
+
+    for a, r in ((0.99997, 1e6), (0.99, 1e6), (0.01, 1e-6)):
+        b = rl.buckling(rl.Rod(K=f"Piecewise((1, s < {a}), ({r!r}, True))"), 3)
+        place, ratio = mp.mpf(a), mp.mpf(r)
+
+        def matched(lam, place=place, ratio=ratio):
+            left, right = mp.sqrt(lam) * place, mp.sqrt(lam / ratio) * (1 - place)
+            return mp.cos(left) * mp.cos(right) - mp.sqrt(ratio) * mp.sin(left) * mp.sin(right)
+
+        _agree(b, _mpmath_loads(matched, b.loads))
+    jumps = "Piecewise((1000.0, s<0.11756603353271704), (0.001, s<0.5330448875865971), (0.933205, s<0.9999984899757172), (1000.0, True))"
+    rod = rl.Rod(K=jumps)
+    assert rl.buckling_loads(rod, [2])[0] == pytest.approx(rl.buckling_loads(rod, 3)[1], rel=1e-12)
+
+
 def test_all_loads_below_a_million():
     b = rl.buckling(rl.Rod(), 318)
     exact = load(np.arange(1, 319))

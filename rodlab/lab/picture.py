@@ -82,7 +82,7 @@ def shapes_picture(columns: Sequence[tuple[int, Sequence[Found], float]]) -> Fig
 
 
 def routes_picture(routed: Sequence[Route]) -> Figure:
-    """Error of a tip angle against the number of unknowns, one line a method, named at its end."""
+    """Error of a tip angle against the number of unknowns, one line a method."""
     fig, axes = figure(6.4, 4.6)
     methods = list(dict.fromkeys(route.method for route in routed))
     marks = dict(zip(methods, "os^vDP*X", strict=False))
@@ -91,16 +91,12 @@ def routes_picture(routed: Sequence[Route]) -> Figure:
         shown = [route for route in own if route.error > 0]
         strut = method.startswith("strut")
         style = {"color": "0.5" if strut else "0.0", "mfc": "0.5" if strut else "w", "marker": marks[method], "ms": 4.5}
-        axes.loglog([r.unknowns for r in shown], [r.error for r in shown], lw=1.1, **style)
-        crowded = method == "rod, degree 1"  # its end lies on the line of the trapezoid rule
-        place = shown[0] if crowded else next((r for r in shown if r.error < 1e-13), shown[-1])
-        axes.annotate(
-            f"{method}: order {own[0].order}", (place.unknowns, max(place.error, 2e-15)), (5, 7 * crowded),
-            textcoords="offset points", fontsize=7.5, va="center", color=style["color"],
-        )  # fmt: skip
+        label = f"{method}: order {own[0].order}"
+        axes.loglog([r.unknowns for r in shown], [r.error for r in shown], lw=1.1, label=label, **style)
+    axes.legend(fontsize=8, frameon=False, loc="lower right")
     axes.set_xlabel("number of unknowns: joints, or nodes of the collocated rod")
     axes.set_ylabel(r"error of the tip angle $|\phi(1) - \alpha|$ (radians)")
-    axes.set_xlim(1.5, 9e4)
+    axes.set_xlim(1.5, 8e3)
     axes.set_ylim(2e-16, 3)
     axes.grid(True, which="major", lw=0.3, color="0.85")
     return fig

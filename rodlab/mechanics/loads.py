@@ -108,7 +108,7 @@ class Pencil:
         shares = (inner[:, None, :] @ F)[:, 0]
         right = rows[:, -1] - shares[:, 1]
         right[:-1] -= shares[1:, 0]
-        ends = form.factor().solve(right)
+        ends = form.solve_fully(right)
         both = np.stack([np.append(0.0, ends[:-1]), ends], axis=1)
         within = (inverse @ inner[:, :, None])[:, :, 0] - (F @ both[:, :, None])[:, :, 0]
         return np.concatenate([within, ends[:, None]], axis=1).ravel()
@@ -172,8 +172,12 @@ def rod_loads(rod: "Rod", numbers: Sequence[int]) -> Iterator[Load]:
                 mesh = np.union1d(mesh, (mesh[1:] + mesh[:-1]) / 2)
             finer_pencil = Pencil(rod, mesh, DEGREE)
             better = _found(finer_pencil, j, *_isolated(finer_pencil, j, found.load))
-            tries -= better.error > found.error / 2
-            pencil, found = finer_pencil, better if better.error < found.error else found
+            if better.error > found.error / 2:
+                tries -= 1
+            if better.error < found.error:
+                pencil, found = finer_pencil, better
+            else:
+                break
         known.append((j, found.load))
         yield found
 
