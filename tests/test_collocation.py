@@ -108,7 +108,7 @@ def elastica_guess(exact):
     from scipy.interpolate import CubicSpline
 
     s = np.linspace(0, 1, 65)
-    return CubicSpline(s, exact(s)[0])
+    return CubicSpline(s, exact(s).phi)
 
 
 def fine_guess(p):

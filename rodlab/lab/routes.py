@@ -47,7 +47,7 @@ def routes(lam: float, joints: Sequence[int], intervals: Sequence[int]) -> Itera
 def _refined(method: str, order: int, models: Sequence[Strut | Rod], exact: Elastica) -> Iterator[Route]:
     last = math.nan
     known = np.linspace(0, 1, 33)
-    shape = CubicSpline(known, exact(known)[0])
+    shape = CubicSpline(known, exact(known).phi)
     for model in models:
         start = time.perf_counter()
         p = equilibrium(model, exact.lam, shape)

@@ -13,14 +13,24 @@ Computed by mpmath with so many digits that twenty more change nothing: the erro
 """
 
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import mpmath
 import numpy as np
 
 from rodlab.numerics.arrays import EPS, Array, number, whole
 
+MEASURES = ("tip_angle", "height", "energy", "curvature", "moment", "deflection")
 DIGITS = 30  # more than the solution's own
+
+
+class Centreline(NamedTuple):
+    """Arclength, angle and place along the elastica: arrays of one shape."""
+
+    s: Array
+    phi: Array
+    x: Array
+    z: Array
 
 
 class Elastica:
@@ -95,14 +105,45 @@ class Elastica:
             rate = quarter / 2 * k * rest / (mpmath.ellipe(k * k) - rest * quarter)  # lam dk/dlam, as w = (2j-1) Kell
             return float(2 * rate / mpmath.sqrt(rest) / self._known["alpha"])
 
-    def __call__(self, s: Any) -> tuple[Array, Array, Array]:
-        """phi, x, z at arclengths s, arrays of the shape of s."""
+    def measure(self, name: str) -> float:
+        """A measure by its name: tip_angle, height, energy, curvature, moment, deflection."""
+        if name not in MEASURES:
+            raise AttributeError(f"the elastica has no measure {name}; it has {', '.join(MEASURES)}")
+        return float(getattr(self, name))
+
+    @cached_property
+    def shape(self) -> Centreline:
+        """s, phi, x, z at 65 places from the clamp to the tip; computed when first asked for, as are s, phi, x, z."""
+        return self(np.linspace(0, 1, 65))
+
+    @property
+    def s(self) -> Array:
+        """Arclength of the places of `shape`."""
+        return self.shape.s
+
+    @property
+    def phi(self) -> Array:
+        """Angles at `s`."""
+        return self.shape.phi
+
+    @property
+    def x(self) -> Array:
+        """Lateral place at `s`."""
+        return self.shape.x
+
+    @property
+    def z(self) -> Array:
+        """Height at `s`."""
+        return self.shape.z
+
+    def __call__(self, s: Any) -> Centreline:
+        """(s, phi, x, z) at arclengths s, arrays of the shape of s; `ValueError` outside of the rod."""
         s = np.asarray(s, dtype=np.float64)
         if not ((s >= 0) & (s <= 1)).all():
             raise ValueError(f"s must lie between 0 and 1; it is {s!r:.60}")
         values = np.array([self._at(float(x)) for x in s.ravel()]).reshape(-1, 3)
         phi, x, z = (column.reshape(s.shape) for column in values.T)
-        return phi, x, z
+        return Centreline(s, phi, x, z)
 
     def _at(self, s: float) -> tuple[float, float, float]:
         k, digits = self._known["k"], int(self._known["digits"])
