@@ -69,17 +69,14 @@ class Newton:
     jacobian: Callable[[Array], Any]
     norm: Callable[[Array], float]
     limit: int = 100
-    wide: Callable[[Array], Array] | None = None  # the residual to more digits, for the last steps
-
-    def __post_init__(self) -> None:
-        self._last = False
 
     @classmethod
     def at(cls, model: Equations, lam: float, limit: int = 100) -> "Newton":
-        """Newton's method for the equations at a load, in their own length."""
+        """Newton's method for the equations at a load, in their own length; with the residual of most digits that they have."""
+        own = getattr(model, "residual_wide", model.residual)
 
         def residual(u: Array) -> Array:
-            F = np.asarray(model.residual(u, lam))
+            F = np.asarray(own(u, lam))
             if F.shape != u.shape:
                 raise ValueError(f"residual must return the shape of u, {u.shape}; it returned {F.shape}")
             return F
@@ -91,14 +88,11 @@ class Newton:
                 raise ValueError(f"inner(v, v) must not be negative; it is {square:g}")
             return math.sqrt(square)
 
-        own = getattr(model, "residual_wide", None)
-        wide = None if own is None else (lambda u: own(u, lam))
-        return cls(residual, lambda u: jacobian(model, u, lam), norm, limit, wide)
+        return cls(residual, lambda u: jacobian(model, u, lam), norm, limit)
 
     def solve(self, u: Array) -> Solution:
         """A root from the first iterate u; raises `NoConvergence` with its history."""
         self.history: list[NewtonStep] = []
-        self._last = False
         F = self._residual(u)
         if F is None:
             raise NoConvergence("Newton cannot start: the residual at the first guess is not finite", ())
@@ -119,13 +113,10 @@ class Newton:
             step = self._step(u, F)
             size = self.norm(step) if step is not None else math.inf
             self._tell(size, F)
-            switched = self.wide is not None and not self._last and size <= WIDE * max(self.norm(u), start)
-            if switched:  # what follows sees a better residual, and is not compared with this step
-                self._last, size = True, math.inf
             floor = 2 * EPS * max(self.norm(u), 1e-3 * start)
             if step is not None and size <= floor:
                 return self._solution(u + step, step, size)
-            if (not size < last and not switched) or step is None:
+            if not size < last or step is None:
                 if last < math.inf and self._is_rounding(*before):  # steps can shrink no more; the error says how far
                     small = last <= FLOOR * max(self.norm(u), start)
                     left = last * max(1.0, contraction / (1 - contraction)) if small else 2 * last
@@ -182,7 +173,7 @@ class Newton:
     def _residual(self, u: Array) -> Array | None:
         with np.errstate(all="ignore"):
             try:
-                return _finite(self.residual(u) if self.wide is None or not self._last else self.wide(u))
+                return _finite(self.residual(u))
             except ValueError:
                 if np.isfinite(u).all():
                     raise

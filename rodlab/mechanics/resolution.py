@@ -86,6 +86,15 @@ def tip_error(rod: "Rod", u: Array, lam: float, remaining: float) -> float:
     return total if np.isfinite(total) else np.inf
 
 
+def condition(rod: "Rod", u: Array, lam: float) -> float:
+    """Of the tip angle: how many relative units of rounding in the terms of the gradient show in it, relative to itself."""
+    unit = np.zeros_like(u)
+    unit[-1] = 1.0
+    with np.errstate(all="ignore"):
+        adjoint = rod.jacobian(u, lam).factor().solve(unit)
+        return float(np.abs(adjoint) @ rod_bounds.sizes(rod, u, lam) / abs(u[-1]))
+
+
 def _missed_tip(known: Corrected, tip: float, lam: float) -> float:
     """How far the tip is from the companion's; where that is far, from the companion's own companion, and so on."""
     found = abs(float(known.u[-1]) - tip)

@@ -270,6 +270,7 @@ class Rod:
             "energy": self.energy,
             "moment": self.moment,
             "curvature": self.curvature,
+            "condition": lambda u, lam: resolution.condition(self, u, lam),
         }
 
     # --- what it knows besides: bounds for proofs, errors, meshes --------------------------------------------------
