@@ -108,12 +108,12 @@ def test_followed_to_where_the_critical_eigenvalue_is_exponentially_small():
 @pytest.mark.parametrize("mode", [1, 2, 3])
 def test_a_hundred_times_the_load_to_what_the_condition_leaves(mode):
     exact = rl.elastica(load(mode, 100.0), mode)
-    rod = rl.Rod(mesh=100, degree=8)
+    rod = rl.Rod(mesh=60, degree=8)
     p = rl.equilibrium(rod, exact.lam, exact(rod.grid.places[1:]).phi)
     condition = 1 + p.measure("condition")
     assert condition > (1e3 if mode > 1 else 0)  # of the tip; that of the inner layers is 1e12
     assert abs(p.tip_angle - exact.tip_angle) <= 100 * np.finfo(float).eps * condition * abs(exact.tip_angle)
-    assert p.height == pytest.approx(exact.height, abs=1e-12)
+    assert p.height == pytest.approx(exact.height, abs=1e-10)  # of this mesh
     assert p.index_verified == (mode == 1)  # the critical eigenvalue is exponentially small, and said to be
 
 
