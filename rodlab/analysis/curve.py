@@ -16,12 +16,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rodlab.analysis.equations import Equations, jacobian, second_variation
-from rodlab.analysis.newton import WIDE, NewtonStep, NoConvergence
+from rodlab.analysis.newton import NewtonStep, NoConvergence
 from rodlab.numerics.arrays import EPS, Array, is_finite
 from rodlab.numerics.bordered import OneBorder
 from rodlab.numerics.factor import factor, inertia_of
 from rodlab.numerics.inertia import Inertia, Symmetric
 
+WIDE = 1e-4  # relative correction below which the residual is asked for to more digits, where the model has them
 PLATEAU = 1e-11  # relative size at which slow corrections are rounding
 ROUGH = 1e-7  # relative size below which corrections that stop shrinking are rounding
 BARE = 1e-10  # relative size of what may be left to correct where nothing is shown

@@ -20,7 +20,6 @@ from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.factor import Factor, factor, solve
 
 SHORTEST = 1e-9  # damping below this finds nothing more
-WIDE = 1e-4  # relative step below which the residual is asked for to more digits, where the model has them
 FLOOR = 1e-7  # relative step below which steps that stop shrinking are rounding, or a singular root
 
 

@@ -136,7 +136,7 @@ class Point:
             return self.known_inertia
         own = getattr(self.equations, "inertia", None)
         if own is not None:
-            known: Inertia = own(self.u, self.lam, self.remaining)
+            known: Inertia = own(self.u, self.lam)
             return known
         matrix = second_variation(self.equations, self.u, self.lam)
         bound = getattr(self.equations, "lipschitz", None)
@@ -196,7 +196,7 @@ class Point:
         """
         own = getattr(self.equations, "error", None)
         if own is not None:
-            return float(own(self.u, self.lam, self.remaining)) if self.index_verified else np.inf
+            return float(own(self.u, self.lam)) if self.index_verified else np.inf
         unit = np.zeros_like(self.u)
         unit[-1] = 1.0
         J, F = jacobian(self.equations, self.u, self.lam), np.asarray(self.equations.residual(self.u, self.lam))

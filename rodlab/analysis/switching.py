@@ -88,8 +88,7 @@ def _simple(curve: Curve, event: Event, y: Array, null: NearNull) -> list[Point]
     across /= curve.norm(across)
     starts = [_aside(curve, y, side * across, parent) for side in (1.0, -1.0)]
     found = [start for start in starts if start is not None]
-    few = [0, (y.size - 1) // 2, -1]
-    return sorted(found, key=lambda p: tuple(-np.round(p.u[few] / (1e-3 * FIRST)))) if len(found) == 2 else []
+    return _in_order(found, FIRST) if len(found) == 2 else []
 
 
 def _aside(curve: Curve, y: Array, across: Array, parent: Array) -> Point | None:
@@ -106,6 +105,11 @@ def _aside(curve: Curve, y: Array, across: Array, parent: Array) -> Point | None
         return None
     t = curve.tangent(far.y, far.y - y)
     return Point(curve.equations, float(far.y[-1]), far.y[:-1].copy(), far.history, far.remaining, t, "checked")
+
+
+def _in_order(starts: list[Point], rho: float) -> list[Point]:
+    """Those with a greater first angle first; differences far below their distance rho do not count."""
+    return sorted(starts, key=lambda p: tuple(-np.round(p.u[[0, p.u.size // 2, -1]] / (1e-3 * rho))))
 
 
 def _load_size(event: Event) -> float:
@@ -141,8 +145,7 @@ class _Leaving:
             start = self._start(root)
             if start is not None and all(self._apart(start, other) for other in found):
                 found.append(start)
-        few = [0, (self.reduced.y.size - 1) // 2, -1]
-        return sorted(found, key=lambda p: tuple(-np.round(p.u[few] / (1e-3 * self.rho))))
+        return _in_order(found, self.rho)
 
     def _load_scale(self) -> float:
         """Size of mu on the branches at the distance rho, from the eigenvalues' rate of crossing."""

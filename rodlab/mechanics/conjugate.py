@@ -39,10 +39,7 @@ def conjugate_points(p: Any) -> Array:
         )
     if isinstance(matrix, Collocated):
         known = matrix.condensed()
-        S = known.S
-        d, e = S[:, 1, 1].copy(), S[:, 0, 1]
-        d[:-1] += S[1:, 0, 0]
-        w = _field(d, e)
+        w = _field(known.diagonal, known.S[:, 0, 1])
         ends = np.stack([w[:-1], w[1:]], axis=1)
         inner = -(known.F @ ends[:, :, None])[:, :, 0]
         return _zeros(model.grid.places, np.append(w[0], np.concatenate([inner, ends[:, 1:]], axis=1).ravel()))

@@ -47,23 +47,34 @@ def density(terms: Sequence[Term]) -> Any:
     return _derived_limit(tuple((term.name, tuple(term.parameters), term.energy) for term in terms))
 
 
+Recipe = tuple[tuple[str, tuple[str, ...], Any], ...]
+
+
 @lru_cache(maxsize=64)
-def _derived_limit(recipe: tuple[tuple[str, tuple[str, ...], Any], ...]) -> Any:
-    from rodlab.mechanics.derive import HEADER
+def _derived_limit(recipe: Recipe) -> Any:
     from rodlab.mechanics.limit import limit
 
-    found = limit([Term(name, dict.fromkeys(names), energy) for name, names, energy in recipe])
-    namespace: dict[str, Any] = {}
-    exec("from numpy import *\n" + HEADER + found.source, namespace)  # noqa: S102  our own generated text
-    return namespace[found.name]
+    terms = _terms(recipe)
+    return _compiled(limit(terms), terms)
 
 
 @lru_cache(maxsize=64)
-def _derived(recipe: tuple[tuple[str, tuple[str, ...], Any], ...], weighted: bool) -> Kernel:
-    from rodlab.mechanics.derive import HEADER, derive
+def _derived(recipe: Recipe, weighted: bool) -> Kernel:
+    from rodlab.mechanics.derive import derive
 
-    terms = [Term(name, dict.fromkeys(names), energy) for name, names, energy in recipe]
-    derivation = derive(terms, weighted=weighted)
+    terms = _terms(recipe)
+    compiled: Kernel = _compiled(derive(terms, weighted=weighted), terms)
+    return compiled
+
+
+def _terms(recipe: Recipe) -> list[Term]:
+    return [Term(name, dict.fromkeys(names), energy) for name, names, energy in recipe]
+
+
+def _compiled(derivation: Any, terms: Sequence[Term]) -> Any:
+    """The class that a derivation's source defines."""
+    from rodlab.mechanics.derive import HEADER
+
     namespace: dict[str, Any] = {}
     try:
         source = derivation.source
@@ -71,5 +82,4 @@ def _derived(recipe: tuple[tuple[str, tuple[str, ...], Any], ...], weighted: boo
         names = ", ".join(term.name for term in terms if term.energy)
         raise ValueError(f"the energy of {names} must be smooth, of functions that numpy has; {error}".split("\n")[0]) from None
     exec("from numpy import *\n" + HEADER + source, namespace)  # noqa: S102  our own generated text
-    compiled: Kernel = namespace[derivation.name]
-    return compiled
+    return namespace[derivation.name]

@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from rodlab.numerics.arrays import EPS, Array
-from rodlab.numerics.collocated import Collocated
+from rodlab.numerics.collocated import Collocated, Condensed
 from rodlab.numerics.collocation import Grid
 from rodlab.numerics.difference import DifferenceForm, Springs
-from rodlab.numerics.mesh import equidistributed
+from rodlab.numerics.mesh import equidistributed, halved
 
 if TYPE_CHECKING:
     from rodlab.mechanics.rod import Rod
@@ -81,12 +81,9 @@ class Pencil:
         except np.linalg.LinAlgError:  # an interval by itself has buckled
             return None
         F = np.asarray(inverse @ coupling)
-        k = np.einsum("ni,ni->n", coupling[:, :, 0], F[:, :, 1]) - blocks[:, 0, -1]
-        rest = -lam * mass.sum(axis=2)
-        ends = rest[:, [0, -1]] - (rest[:, None, 1:-1] @ F)[:, 0]
-        c = -ends[:, 1]
-        c[:-1] -= ends[1:, 0]
-        return DifferenceForm(Springs(k), c), F, np.asarray(inverse)
+        known = Condensed(blocks[:, :: n - 1, :: n - 1] - coupling.transpose(0, 2, 1) @ F, F, np.asarray(inverse))
+        k, ends = known.springs(-lam * mass.sum(axis=2))
+        return DifferenceForm(Springs(k), -Grid.gathered(ends)), F, known.inverse
 
     def below(self, lam: float) -> tuple[int, int]:
         """Loads certainly below this one, and those that may be."""
@@ -106,8 +103,7 @@ class Pencil:
         rows = b.reshape(self.grid.N, -1)
         inner = rows[:, :-1]
         shares = (inner[:, None, :] @ F)[:, 0]
-        right = rows[:, -1] - shares[:, 1]
-        right[:-1] -= shares[1:, 0]
+        right = rows[:, -1] - Grid.gathered(shares)
         ends = form.solve_fully(right)
         both = np.stack([np.append(0.0, ends[:-1]), ends], axis=1)
         within = (inverse @ inner[:, :, None])[:, :, 0] - (F @ both[:, :, None])[:, :, 0]
@@ -169,7 +165,7 @@ def rod_loads(rod: "Rod", numbers: Sequence[int]) -> Iterator[Load]:
                 break
             mesh = equidistributed(pencil.grid.mesh, found.missed, AIM, 2 * DEGREE + 1, rod.breaks)
             if mesh.size <= pencil.grid.mesh.size:
-                mesh = np.union1d(mesh, (mesh[1:] + mesh[:-1]) / 2)
+                mesh = halved(mesh)
             finer_pencil = Pencil(rod, mesh, DEGREE)
             better = _found(finer_pencil, j, *_isolated(finer_pencil, j, found.load))
             if better.error > found.error / 2:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import sympy
-from sympy import Derivative, Eq, Expr, Function, Matrix, Symbol, cos, sin
+from sympy import Derivative, Eq, Expr, Function, Symbol, cos, sin
 
 from rodlab.mechanics.derive import energy_of, tidy
 from rodlab.mechanics.link import Link
@@ -72,19 +72,9 @@ def continuous(limit: "Limit") -> Balance:
     if not all(bool(equation.subs(forces).doit()) for equation in force):
         raise ArithmeticError("the forces do not balance")  # pragma: no cover
     moment = Derivative(L.diff(phi.diff(s)), s) - L.diff(phi)
-    reduced = tidy_moments(moment.subs(forces))
+    reduced = sympy.expand(moment.subs(forces).doit())
     return Balance(L, (*force, *ends), forces, (Eq(moment, 0),), (reduced,))
-
-
-def tidy_moments(left: Expr) -> Expr:
-    """A balance of moments with the derivative of the moment carried out."""
-    return sympy.expand(left.doit())
 
 
 def _numbered(name: str, n: int) -> list[Any]:
     return [Symbol(f"{name}_{i}", real=True) for i in range(1, n + 1)]
-
-
-def as_column(balance: Balance) -> Matrix:
-    """The reduced balance of moments as a column, to compare with a gradient."""
-    return Matrix(balance.reduced)

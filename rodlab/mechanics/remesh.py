@@ -19,7 +19,7 @@ from rodlab.mechanics.resolution import CHORD, Corrected, companion_of, softenin
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.collocated import Condensed
 from rodlab.numerics.collocation import Grid
-from rodlab.numerics.mesh import equidistributed
+from rodlab.numerics.mesh import equidistributed, halved
 from rodlab.numerics.pieces import smooth_pieces
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def adapted(rod: "Rod", u: Array, lam: float, tangent: Array | None) -> "tuple[R
         change, last = (float(np.abs(step).max()) for step in (known.first + known.second, known.second))
         settled = change < FAR and last <= max(0.25 * change, 1e-9, noise(known, lam))
     if not settled:  # beyond a length a finer mesh would not mend it: the error of a point tells
-        return _on(rod, rod, u, _halved(rod.mesh), tangent) if rod.grid.N <= HALVED else None
+        return _on(rod, rod, u, halved(rod.mesh), tangent) if rod.grid.N <= HALVED else None
     errors = _errors(rod, u, lam, known) / min(max(float(np.abs(known.u).max()), SMALLEST), 1.0)
     total, keep, aim = float(errors.sum()), KEEP * rod.tol, AIM * rod.tol
     if abs(lam - rod.expected[0]) <= SAME * abs(lam) and rod.expected[1] < total < ROUNDED:
@@ -58,7 +58,7 @@ def adapted(rod: "Rod", u: Array, lam: float, tangent: Array | None) -> "tuple[R
         return None if mesh is None else _on(rod, known.rod, known.u, mesh, tangent)
     mesh = equidistributed(rod.mesh, errors, aim, 2 * rod.degree + 1, rod.breaks)
     if mesh.size > 2 * rod.mesh.size > LONG or np.array_equal(mesh, rod.mesh):
-        mesh = _halved(rod.mesh)  # errors that ask for so much may be rounding: one step at a time
+        mesh = halved(rod.mesh)  # errors that ask for so much may be rounding: one step at a time
     return _on(rod, known.rod, known.u, mesh, tangent, (lam, total / 2))
 
 
@@ -80,14 +80,10 @@ def suited(rod: "Rod", guess: Any, finer: int) -> "Rod":
         if "guess" in str(error):
             raise
         return rod  # rough: it is taken as it is seen at the nodes
-    mesh = np.union1d(rod.mesh, _halved(pieces)) if pieces.size > rod.breaks.size + 2 else rod.mesh
+    mesh = np.union1d(rod.mesh, halved(pieces)) if pieces.size > rod.breaks.size + 2 else rod.mesh
     for _ in range(finer):
-        mesh = _halved(mesh)
+        mesh = halved(mesh)
     return rod if mesh is rod.mesh else rod.on(mesh)
-
-
-def _halved(mesh: Array) -> Array:
-    return np.union1d(mesh, (mesh[1:] + mesh[:-1]) / 2)
 
 
 def _on(
@@ -108,7 +104,7 @@ def _errors(rod: "Rod", u: Array, lam: float, known: Corrected) -> Array:
     ends, own_ends = known.matrix.condensed(), matrix.condensed()
     own, tested = rod.tested(u, lam, rod.grid.wide), fine.tested(fine.moved(rod, u), lam, fine.grid.wide)
     missed = np.asarray(np.abs(_at_ends(tested, ends) - _at_ends(own, own_ends)), dtype=np.float64)
-    turn = _diagonal_of_inverse(ends.S)
+    turn = _diagonal_of_inverse(ends)
     errors = missed[:, 0] * np.append(0.0, turn[:-1]) + missed[:, 1] * turn
     rest = matrix.factor().solve(-np.asarray(Grid.gathered(own), dtype=np.float64))  # what Newton's method left undone
     turned = (known.first + known.second).reshape(N, -1)[:, -1] - rest.reshape(N, -1)[:, -1]
@@ -149,10 +145,9 @@ def _missed_stiffness(own: Side, companion: Side, lam: float) -> Array:
     return np.asarray(np.where(softening(rod, own[1], lam).max(axis=1) > 0, np.minimum(missed, 1.0), 0.0))
 
 
-def _diagonal_of_inverse(ends: Array) -> Array:
+def _diagonal_of_inverse(ends: Condensed) -> Array:
     """|diagonal| of the inverse of the condensed second variation, (N,): by its pivots from both ends."""
-    d, e = ends[:, 1, 1].copy(), ends[1:, 0, 1]
-    d[:-1] += ends[1:, 0, 0]
+    d, e = ends.diagonal, ends.S[1:, 0, 1]
     below, above = _pivots(d, e), _pivots(d[::-1], e[::-1])[::-1]
     with np.errstate(divide="ignore"):
         return np.asarray(np.minimum(1 / np.abs(below + above - d), 1e6 / float(np.abs(d).min() or 1.0)))

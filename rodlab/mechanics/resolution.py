@@ -7,7 +7,7 @@ index        that of the second variation condensed to mesh points, springs k be
 missed       v . F and v . J v of the companion for a null vector v: what moves folds and branch points
 """
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -42,10 +42,9 @@ class Corrected(NamedTuple):
 
 def companion_of(rod: "Rod", u: Array, lam: float) -> Corrected:
     """The companion's solution; kept for the last u that was asked for."""
-    last: Any = rod.__dict__.get("last_corrected")
+    last = rod.last_corrected
     if last is not None and last[1] == lam and np.array_equal(last[0], u):
-        known: Corrected = last[2]
-        return known
+        return last[2]
     fine = rod.companion
     v = fine.moved(rod, u)
     matrix = fine.jacobian(v, lam)
@@ -57,7 +56,7 @@ def companion_of(rod: "Rod", u: Array, lam: float) -> Corrected:
             factor = matrix.factor()
         second = factor.solve(-fine.residual_wide(v + first, lam))
     known = Corrected(fine, v + first + second, first, second, matrix, factor)
-    rod.__dict__["last_corrected"] = (u, lam, known)
+    rod.last_corrected = (u, lam, known)
     return known
 
 
@@ -71,7 +70,7 @@ def corrected(rod: "Rod", u: Array, lam: float) -> tuple["Rod", Array]:
 # --- what a point asks ---------------------------------------------------------------------------------------------
 
 
-def tip_error(rod: "Rod", u: Array, lam: float, remaining: float) -> float:
+def tip_error(rod: "Rod", u: Array, lam: float) -> float:
     """Estimate from above of the tip angle's error: of the mesh, of Newton's method, and of rounding."""
     known = companion_of(rod, u, lam)
     unit = np.zeros_like(known.u)
@@ -82,7 +81,7 @@ def tip_error(rod: "Rod", u: Array, lam: float, remaining: float) -> float:
         noise = rod_bounds.rounding(known.rod, known.u, lam, adjoint, rounded)
         left = float(abs(known.second[-1]) + np.abs(known.second).max() ** 2 * np.abs(adjoint).sum())
         missed = _missed_tip(known, float(u[-1]), lam)
-        total = SAFE * (missed + left) + noise + 2 * EPS * abs(float(u[-1])) + 0 * remaining
+        total = SAFE * (missed + left) + noise + 2 * EPS * abs(float(u[-1]))
     return total if np.isfinite(total) else np.inf
 
 
@@ -121,11 +120,11 @@ def missed(rod: "Rod", u: Array, lam: float, v: Array) -> tuple[float, float]:
     return SAFE * abs(force), SAFE * abs(stiffness)
 
 
-def inertia(rod: "Rod", u: Array, lam: float, remaining: float) -> Inertia:
+def inertia(rod: "Rod", u: Array, lam: float) -> Inertia:
     """That of the second variation, verified where mesh and companion have it in common and every interval is resolved."""
     known = companion_of(rod, u, lam)
     with np.errstate(all="ignore"):
-        off = float(np.abs(known.second).max()) + 4 * EPS * float(np.abs(known.u).max(initial=0.0)) + 0 * remaining
+        off = float(np.abs(known.second).max()) + 4 * EPS * float(np.abs(known.u).max(initial=0.0))
     if not np.isfinite(off):
         return Inertia(0, rod.size, 0)
     fine, own = _inertia_of(known.rod, known.u, lam, off), _inertia_of(rod, u, lam, 0.0)
@@ -139,17 +138,16 @@ def inertia(rod: "Rod", u: Array, lam: float, remaining: float) -> Inertia:
 def _inertia_of(rod: "Rod", u: Array, lam: float, off: float) -> Inertia:
     """Of all solutions within `off` of u; condensed to springs and softening, which rounding of the stiffness does not blur."""
     matrix, slack = rod.jacobian(u, lam), rod.lipschitz(u, lam)(off, 0.0)[0]
-    spread = slack.values.sum(axis=1) if isinstance(slack, Slack) else np.full(rod.grid.N, off * abs(lam))
+    if not isinstance(slack, Slack):  # no bound is known for a term of one's own
+        slack = Slack(rod.grid, np.zeros_like(rod.grid.s), off * abs(lam))
     if not matrix.is_steady():
-        return matrix.inertia(slack if isinstance(slack, Slack) else off * abs(lam))
-    k, rest = springs(rod, u, matrix.condensed(), lam)
+        return matrix.inertia(slack)
+    k, ends = springs(rod, u, matrix.condensed(), lam)
     if not k.min() > 0:
-        return matrix.inertia(slack if isinstance(slack, Slack) else off * abs(lam))
-    c, wide = -rest[:, 1], 4 * spread
-    c[:-1] -= rest[1:, 0]
-    wide[:-1] += 4 * spread[1:]
-    size = np.abs(rest[:, 1]) + np.append(np.abs(rest[1:, 0]), 0.0)
-    known = DifferenceForm(Springs(k), c).inertia(wide + 64 * rod.degree * EPS * size)
+        return matrix.inertia(slack)
+    spread = slack.values.sum(axis=1, keepdims=True) + slack.level
+    moved = 4 * spread + 64 * rod.degree * EPS * np.abs(ends)
+    known = DifferenceForm(Springs(k), -Grid.gathered(ends)).inertia(Grid.gathered(moved))
     return Inertia(known.negative, known.unclear, rod.size - known.negative - known.unclear)
 
 
@@ -159,13 +157,13 @@ def springs(rod: "Rod", u: Array, condensed: Condensed, lam: float) -> tuple[Arr
     angle, slope = rod.at_gauss(u)
     _, mixed, soft = W.stiffness(slope, angle, lam, **rod.given(W))
     rest = grid.tested(mixed + np.zeros_like(angle), soft + np.zeros_like(angle))
-    return -condensed.S[:, 0, 1], rest[:, [0, -1]] - (rest[:, None, 1:-1] @ condensed.F)[:, 0]
+    return condensed.springs(rest)
 
 
 def softening(rod: "Rod", u: Array, lam: float) -> Array:
     """How much the load softens at Gauss's points: -W_phiphi, (N, m)."""
-    W, grid = rod.kernel(lam), rod.grid
-    angle, slope = grid.at_gauss(grid.nodal(u, rod.phi0))
+    W = rod.kernel(lam)
+    angle, slope = rod.at_gauss(u)
     soft = W.stiffness(slope, angle, lam, **rod.given(W))[2]
     return -np.broadcast_to(soft, angle.shape)
 
@@ -187,8 +185,3 @@ def between(rod: "Rod", u: Array, s: Array) -> tuple[Array, Array, Array]:
     weight = (s - start)[:, None] * grid.basis.b
     foot = [np.append(0.0, place[:-1])[i] for place in (x, z)]
     return grid.value(Y, s), foot[0] + np.sum(weight * np.sin(angle), axis=1), foot[1] + np.sum(weight * np.cos(angle), axis=1)
-
-
-def slopes(rod: "Rod", u: Array) -> tuple[Array, Array]:
-    """s and phi' at Gauss's points, (N m,)."""
-    return rod.grid.s.ravel(), rod.grid.at_gauss(Grid.nodal(rod.grid, u, rod.phi0))[1].ravel()

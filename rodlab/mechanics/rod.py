@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodlab.mechanics import remesh, resolution, rod_bounds
+from rodlab.mechanics import bounds, remesh, resolution, rod_bounds
 from rodlab.mechanics.kernels import density
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.recipe import changed, kept, rod_recipe_of, said_of_rod
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 FIRST = 4  # intervals of the first mesh
 HIGHEST = 32  # degree
 NEAREST = 1e-9  # distance of breaks
+DERIVED = ("companion", "compliance", "_stiff", "_with_load", "_without_load")  # computed once, from mesh and parameters
 
 
 class Rod:
@@ -104,6 +105,7 @@ class Rod:
     def _collocate(self, mesh: Array, degree: int) -> None:
         self.grid = Grid(mesh, degree)
         self._last_state: tuple[Array, Array, Array] | None = None
+        self.last_corrected: tuple[Array, float, resolution.Corrected] | None = None
         s = self.grid.s
         self.parameters: dict[str, Any] = {
             name: profile.at(s) if profile.constant is None else profile.constant for name, profile in self.profiles.items()
@@ -114,11 +116,17 @@ class Rod:
 
     def on(self, mesh: Array, degree: int | None = None) -> "Rod":
         """The same rod on another mesh, which holds the breaks, or with another degree."""
-        other = copy(self)
-        for name in ("companion", "compliance", "_stiff", "last_corrected"):
-            other.__dict__.pop(name, None)
+        other = self.fresh()
         other.expected, other.stuck = (0.0, np.inf), 0.0
         other._collocate(mesh, self.degree if degree is None else degree)
+        return other
+
+    def fresh(self) -> "Rod":
+        """A copy without what was computed for its mesh and parameters."""
+        other = copy(self)
+        for name in DERIVED:
+            other.__dict__.pop(name, None)
+        other._last_state = other.last_corrected = None
         return other
 
     def on_points(self, points: Sequence[float]) -> "Rod":
@@ -204,7 +212,7 @@ class Rod:
 
     def d_lam(self, phi: Array, lam: float) -> Array:
         """d(gradient)/dlam, shape (N m,), of arguments that are not looked at."""
-        return self._by("lam", phi, lam)
+        return self.by("lam", phi, lam)
 
     # --- the equations F(u, lam) = 0 that a solver sees ---------------------------------------------------------
 
@@ -233,12 +241,12 @@ class Rod:
     def _stiff(self) -> Array:
         return self.grid.stiff(self.parameters["K"])
 
-    def _by(self, name: str, u: Array, lam: float) -> Array:
-        """The derivative of the gradient in the load, or in a parameter per unit."""
+    def by(self, name: str, u: Array, lam: float, unit: Any = 1.0) -> Array:
+        """The derivative of the gradient in the load, or in a parameter that grows like `unit`, a number or (N, m)."""
         W, grid = self.kernel(), self.grid
         angle, slope = self.at_gauss(u)
         m, f = getattr(W, f"moments_{name}")(slope, angle, lam, **self.given(W))
-        return Grid.gathered(grid.tested(m if np.ndim(m) else np.full(angle.shape, m), f))
+        return Grid.gathered(grid.tested(np.broadcast_to(m * unit, angle.shape), f * unit))
 
     def at_gauss(self, u: Array) -> tuple[Array, Array]:
         """Angles and their derivatives at Gauss's points, (N, m) each; kept for the last u that was asked for."""
@@ -275,7 +283,7 @@ class Rod:
 
     # --- what it knows besides: bounds for proofs, errors, meshes --------------------------------------------------
 
-    def lipschitz(self, u: Array, lam: float) -> rod_bounds.Bound:
+    def lipschitz(self, u: Array, lam: float) -> bounds.Bound:
         """How far Jacobian and d_lam may be from those at (u, lam) near by; see `rodlab.mechanics.rod_bounds`."""
         return rod_bounds.lipschitz(self, u, lam)
 
@@ -300,13 +308,13 @@ class Rod:
         """The same rod on the same mesh with polynomials of about twice the degree, by which errors are told."""
         return self.on(self.mesh, min(2 * self.degree, self.degree + 8))
 
-    def error(self, u: Array, lam: float, remaining: float) -> float:
+    def error(self, u: Array, lam: float) -> float:
         """Estimate from above of the error of the tip angle against the exact solution of the rod's equations."""
-        return resolution.tip_error(self, u, lam, remaining)
+        return resolution.tip_error(self, u, lam)
 
-    def inertia(self, u: Array, lam: float, remaining: float) -> Inertia:
+    def inertia(self, u: Array, lam: float) -> Inertia:
         """Signs of the eigenvalues of the second variation, as far as this mesh and its companion agree on them."""
-        return resolution.inertia(self, u, lam, remaining)
+        return resolution.inertia(self, u, lam)
 
     def missed(self, u: Array, lam: float, v: Array) -> tuple[float, float]:
         """How much the mesh misses of v . F and of v . J v for a null vector v."""

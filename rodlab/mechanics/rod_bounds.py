@@ -4,11 +4,11 @@ The load's part of the second variation is -E^T diag(h b lam cos phi) E: it chan
 points, and by a matrix of the same form (`rodlab.numerics.slack`). As for the strut (`bounds`) this lets steps be proved.
 """
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rodlab.mechanics.bounds import Bound, unknown
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.collocation import Grid
 from rodlab.numerics.slack import Slack
@@ -16,14 +16,8 @@ from rodlab.numerics.slack import Slack
 if TYPE_CHECKING:
     from rodlab.mechanics.rod import Rod
 
-Bound = Callable[[Any, float], tuple[Any, Any]]  # (du, dlam) -> (d, c)
 KNOWN = ("bending", "bending_with_rest", "end_load", "end_torque")
 WIDE = float(np.finfo(np.longdouble).eps)
-
-
-def unknown(_du: Any, _dlam: float) -> tuple[Any, Any]:
-    """No bound."""
-    return np.inf, np.inf
 
 
 def lipschitz(rod: "Rod", u: Array, lam: float) -> Bound:
@@ -31,7 +25,7 @@ def lipschitz(rod: "Rod", u: Array, lam: float) -> Bound:
     if any(term.energy is not None or term.name not in KNOWN for term in rod.loaded):
         return unknown
     grid = rod.grid
-    angle, _ = grid.at_gauss(grid.nodal(u, rod.phi0))
+    angle, _ = rod.at_gauss(u)
     sine, cosine = np.abs(np.sin(angle)), np.abs(np.cos(angle))
     E, hb = np.abs(grid.E), grid.hb
 
@@ -84,7 +78,7 @@ def rounding(rod: "Rod", u: Array, lam: float, v: Array, eps: float = EPS) -> fl
 def sizes(rod: "Rod", u: Array, lam: float) -> Array:
     """Sum of the sizes of what is added up to each entry of the gradient, (N m,)."""
     W, grid = rod.kernel(lam), rod.grid
-    angle, slope = grid.at_gauss(grid.nodal(u, rod.phi0))
+    angle, slope = rod.at_gauss(u)
     m, f = W.moments(slope, angle, lam, **rod.given(W))
     G = (grid.b * np.abs(m)) @ np.abs(grid.D) + (grid.hb * np.abs(f)) @ np.abs(grid.E)
     return Grid.gathered(np.asarray(G))

@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodlab.mechanics import remesh, rod_bounds
+from rodlab.mechanics import bounds, remesh
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.terms import BENDING_WITH_REST, END_LOAD
 from rodlab.numerics.arrays import Array, number
 from rodlab.numerics.collocated import Collocated
-from rodlab.numerics.collocation import Grid
 from rodlab.numerics.inertia import Inertia
 
 if TYPE_CHECKING:
@@ -70,10 +69,7 @@ class VariedRod:
         """The same on this mesh, sharing all that does not change."""
         if self._last is not None and self._last[0] == value:
             return self._last[1]
-        rod = copy(self.rod)
-        for name in ("companion", "compliance", "_stiff", "last_corrected", "_with_load", "_without_load"):
-            rod.__dict__.pop(name, None)
-        rod._last_state = None
+        rod = self.rod.fresh()
         if self.name == "phi0":
             rod.phi0 = value
         else:
@@ -121,11 +117,7 @@ class VariedRod:
         rod = self._at(value)
         if self.name == "phi0":
             return _first_column(rod, u, self.lam)
-        W, grid = rod.kernel(self.lam), rod.grid
-        angle, slope = grid.at_gauss(grid.nodal(u, rod.phi0))
-        m, f = getattr(W, f"moments_{self.name}")(slope, angle, self.lam, **rod.given(W))
-        unit = self._unit(rod)
-        return Grid.gathered(grid.tested(np.broadcast_to(m * unit, angle.shape), f * unit))
+        return rod.by(self.name, u, self.lam, self._unit(rod))
 
     def inner(self, u: Array, v: Array) -> float:
         """That of the rod."""
@@ -145,10 +137,10 @@ class VariedRod:
         """As the rod's."""
         return self.rod.seen(u)
 
-    def lipschitz(self, u: Array, value: float) -> rod_bounds.Bound:
+    def lipschitz(self, u: Array, value: float) -> bounds.Bound:
         """As the rod's; known where the parameter takes no part in the Hessian: u_hat and an end torque."""
         if self.name not in ("u_hat", "tau"):
-            return rod_bounds.unknown
+            return bounds.unknown
         bound = self._at(value).lipschitz(u, self.lam)
 
         def unmoved(moved: Any, _: float) -> tuple[Any, Any]:
@@ -164,13 +156,13 @@ class VariedRod:
         """As the rod's."""
         return self._at(value).rounding(u, self.lam, v)
 
-    def error(self, u: Array, value: float, remaining: float) -> float:
+    def error(self, u: Array, value: float) -> float:
         """As the rod's."""
-        return self._at(value).error(u, self.lam, remaining)
+        return self._at(value).error(u, self.lam)
 
-    def inertia(self, u: Array, value: float, remaining: float) -> Inertia:
+    def inertia(self, u: Array, value: float) -> Inertia:
         """As the rod's."""
-        return self._at(value).inertia(u, self.lam, remaining)
+        return self._at(value).inertia(u, self.lam)
 
     def missed(self, u: Array, value: float, v: Array) -> tuple[float, float]:
         """As the rod's."""
@@ -212,7 +204,7 @@ def _scaled(profile: Profile, value: float, *, scalar: bool) -> Profile:
 def _first_column(rod: "Rod", u: Array, lam: float) -> Array:
     """How the gradient changes with the angle of the clamp."""
     W, grid = rod.kernel(lam), rod.grid
-    angle, slope = grid.at_gauss(grid.nodal(u, rod.phi0))
+    angle, slope = rod.at_gauss(u)
     k, mixed, soft = W.stiffness(slope, angle, lam, **rod.given(W))
     b, h, E, D = grid.b, grid.h[0], grid.E, grid.D
     k, mixed, soft = (np.broadcast_to(part, angle.shape)[0] for part in (k, mixed, soft))

@@ -56,6 +56,18 @@ class Condensed(NamedTuple):
     F: Array
     inverse: Array
 
+    @property
+    def diagonal(self) -> Array:
+        """Diagonal of the tridiagonal matrix of the mesh points, (N,); its couplings are S_01."""
+        return Collocated.gathered(np.einsum("iaa->ia", self.S))
+
+    def springs(self, rest: Array) -> tuple[Array, Array]:
+        """k (N,) between the ends, and the response of the ends (N, 2) to a turn of all nodes, whose rows sum to `rest` (N, m+1).
+
+        The same matrix as D^T k D - C with C the responses, summed and negative: no stiffness takes part in them.
+        """
+        return -self.S[:, 0, 1], rest[:, [0, -1]] - (rest[:, None, 1:-1] @ self.F)[:, 0]
+
 
 class Collocated(Symmetric):
     """The matrix of `blocks` (N, m+1, m+1), each symmetric; the first node is clamped.
@@ -184,14 +196,11 @@ class Collocated(Symmetric):
                 return self._counted(most=most)
             worst = int((inner < 0).sum())
         known = self.condensed()
-        S = known.S
-        d, e = S[:, 1, 1].copy(), S[1:, 0, 1]
-        d[:-1] += S[1:, 0, 0]
-        size = np.abs(self.blocks[:, ::m, ::m]).sum(axis=2) + np.abs(S).sum(axis=2)
+        size = np.abs(self.blocks[:, ::m, ::m]).sum(axis=2) + np.abs(known.S).sum(axis=2)
         if m > 1:
             size += (np.abs(self.blocks[:, ::m, 1:m]) @ np.abs(known.F)).sum(axis=2)
         rounding = 8 * m * EPS * self.gathered(size)
-        found = Tridiagonal.of(d, e).inertia(rounding)
+        found = Tridiagonal.of(known.diagonal, known.S[1:, 0, 1]).inertia(rounding)
         return worst + found.negative + (found.unclear if most else 0)
 
     def is_steady(self) -> bool:

@@ -13,7 +13,7 @@ Numerical Integration, VI.6.2; Marsden and West 2001, 2.2]: of order 2m at mesh 
 Degree 1 is the difference scheme of the notes, with the load at the middle of each link.
 """
 
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -159,12 +159,7 @@ class Grid:
         return Collocated(blocks.reshape(-1, n, n), self.layout)
 
 
+@cache
 def _between(degree: int, other: int) -> Array:
     """From nodal values of one degree to those of another on the same interval, (other+1, degree+1)."""
-    known = _BETWEEN.get((degree, other))
-    if known is None:
-        known = _BETWEEN[degree, other] = basis(degree).at(basis(other).wide_nodes)[0]
-    return known
-
-
-_BETWEEN: dict[tuple[int, int], Array] = {}
+    return basis(degree).at(basis(other).wide_nodes)[0]

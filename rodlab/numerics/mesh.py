@@ -41,6 +41,15 @@ def spread_out(n: int, breaks: Array) -> Array:
     return np.append(np.concatenate(parts), 1.0)
 
 
+def halved(mesh: Array) -> Array:
+    """Every interval in two.
+
+    >>> halved(np.array([0.0, 0.5, 1.0]))
+    array([0.  , 0.25, 0.5 , 0.75, 1.  ])
+    """
+    return np.union1d(mesh, (mesh[1:] + mesh[:-1]) / 2)
+
+
 def equidistributed(mesh: Array, errors: Array, aim: float, order: int, breaks: Array) -> Array:
     """A mesh on which the errors (N,) of the intervals of `mesh`, each of this order, sum to about `aim`.
 
