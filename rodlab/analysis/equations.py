@@ -16,6 +16,7 @@ Four methods suffice. What more a model knows it tells by further members, each 
     error, inertia    of a point, where meshes are compared for them; `missed`: what a mesh misses of v.F and v.Jv
     between           phi, x, z at any s
     recipe            plain data that make it again             a saved branch can be read with its model
+    symmetries        maps u -> u that take solutions to such   a diagram recognises images
     vary              (name, lam) -> the same model             another parameter in the load's place
 
 lipschitz(u, lam) returns a function of (du, dlam) that bounds, for all |u' - u| <= du entrywise and |lam' - lam| <= dlam, the

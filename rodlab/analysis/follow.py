@@ -15,19 +15,20 @@ from rodlab.analysis.curve import Curve
 from rodlab.analysis.events import Event, SingularPoints, Zero, branch_point, finders, fold
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
-from rodlab.analysis.stops import Stops, Within, at_load, inside_of, passages, piece
+from rodlab.analysis.stops import Stops, Within, inside_of, passages, passed, piece
 from rodlab.numerics.arrays import Array, number, whole
 
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """Points of one branch in order, and its events; the last event is the end.
+    """Points of one branch in order, and its events; the last event is the end. `begin`: why it does not go on before the first.
 
     `b.lam` and `b.measure("tip_angle")` are arrays over the points.
     """
 
     points: list[Point]
     events: list[Event]
+    begin: str = ""
 
     def __repr__(self) -> str:
         kinds = ", ".join(f"{e.kind} at {e.lam:.6g}" for e in self.events[:-1]) or "no event"
@@ -63,10 +64,41 @@ class Branch:
 
     def extended(self, to: float, **options: Any) -> "Branch":
         """The same branch followed further, from its last point; options as those of `follow`."""
-        more = follow(self.points[-1], to, **options)
+        return self.joined(follow(self.points[-1], to, **options))
+
+    def joined(self, more: "Branch") -> "Branch":
+        """One branch of two, where the second begins with the last point of the first."""
         shift = len(self.points) - 1
         later = [replace(e, where=e.where + shift) for e in more.events]
-        return Branch([*self.points, *more.points[1:]], [*self.events[:-1], *later])
+        return Branch([*self.points, *more.points[1:]], [*self.events[:-1], *later], self.begin)
+
+    def reversed(self) -> "Branch":
+        """The same from its end to its beginning."""
+        last = len(self.points) - 1
+        accepted = ["", *(p.accepted for p in self.points[:0:-1])]
+        points = [_turned(p, how) for p, how in zip(self.points[::-1], accepted, strict=True)]
+        events = [replace(e, where=last - e.where, point=_turned(e.point, e.point.accepted)) for e in self.events[-2::-1]]
+        end = replace(self.end, lam=points[-1].lam, point=points[-1], reason=self.begin or "its first point")
+        return Branch(points, [*events, end], self.reason)
+
+    def along(self, where: float) -> Point:
+        """The point at a place counted in points, between them on the cubic, not corrected."""
+        i = max(0, min(int(where), len(self.points) - 2))
+        if where == i or len(self.points) == 1:
+            return self.points[i]
+        segment = piece(self.points[i], self.points[i + 1])
+        y = segment.at((where - i) * segment.length)
+        return Point(self.points[i + 1].equations, float(y[-1]), y[:-1])
+
+    def indices(self) -> list[int | None]:
+        """The index before the first event, between the events, and after the last one; None where it is not known."""
+        places = [0.0, *(e.where for e in self.events[:-1]), len(self.points) - 1.0]
+        return [self._index_between(a, b) for a, b in pairwise(places)]
+
+    def _index_between(self, a: float, b: float) -> int | None:
+        inner = self.points[int(a) + 1 : int(np.ceil(b))]
+        p = inner[len(inner) // 2] if inner else self.along((a + b) / 2)
+        return p.index if p.index_verified else None
 
     def at(self, lam: float) -> list[Point]:
         """The points of the branch at a load, one for each time it passes, in order; needs the tangents of its points.
@@ -78,7 +110,7 @@ class Branch:
         for a, b in pairwise(self.points):
             segment = piece(a, b)
             inner = [part for part in passages(segment, lam) if part < 1]
-            found += [at_load(Curve(b.equations), segment, part, lam, b.accepted) for part in inner]
+            found += [passed(Curve(b.equations), segment, part, lam, b.accepted) for part in inner]
             found += [b] if b.lam == lam else []
         return found
 
@@ -90,8 +122,9 @@ class Branch:
 
 
 def follow(
-    p: Point, to: float, step: float | None = None, events: Any = (fold, branch_point), within: Within = None,
-    max_points: int = 10_000, *, scale: float | None = None, watch: Callable[[Point], Any] | None = None,
+    p: Point, to: float | tuple[float, float], step: float | None = None, events: Any = (fold, branch_point),
+    within: Within = None, max_points: int = 10_000, *, scale: float | None = None,
+    until: Callable[[Event], str | None] | None = None, watch: Callable[[Point], Any] | None = None,
 ) -> Branch:  # fmt: skip
     """The branch through p as far as the load `to`, with the events met on the way.
 
@@ -99,7 +132,8 @@ def follow(
     predictions. scale: 1 where a step is given, else a tenth of the loads in question. Direction: the point's tangent if it
     has one, else towards `to`. within: a function of a point that is true inside, or ranges of measures,
     {"tip_angle": (-3, 3)} or {"lam": (0, 50)}. Ends exactly at `to`; on leaving `within`; on closing; after max_points;
-    and, having set out towards `to`, back at p.lam. watch: called with every point as it is found.
+    and, having set out towards `to`, back at p.lam. With two loads for `to` it ends at either, setting out towards the first.
+    until: called with every event; it ends the branch there by returning the reason. watch: called with every point.
     Where the Jacobian has no index (neither symmetric nor with a second variation) only the sign of its determinant is
     followed: an even number of eigenvalues that cross zero in one step is then missed.
     Where no further step can be shown the branch ends there, `completed` is False and the reason says why.
@@ -111,7 +145,8 @@ def follow(
     >>> [(e.kind, round(e.lam, 12), e.multiplicity) for e in b.events]
     [('branch point', 0.38196601125, 1), ('branch point', 2.61803398875, 1), ('end', 3.0, 0)]
     """
-    to, most = number("to", to), whole("max_points", max_points, least=1)
+    ends = [number("to", load) for load in (to if isinstance(to, (tuple, list)) else (to,))]
+    to, most = ends[0], whole("max_points", max_points, least=1)
     wanted, inside = finders(events), inside_of(within)
     walk = Walk(p, step=step, toward=to, scale=scale)
     if to == p.lam and p.tangent is None:
@@ -119,7 +154,7 @@ def follow(
     if not inside(p):
         raise ValueError(f"p must lie within the limits given; it does not: {p!r:.80}")
     points, found = [p], list[Event]()
-    stops = Stops(walk, p, to, within, inside)
+    stops = Stops(walk, p, ends, within, inside)
     while True:
         if len(points) >= most:
             return _ended(points, found, f"max_points, {most}, reached")
@@ -129,12 +164,17 @@ def follow(
         except NoConvergence as failure:
             return _ended(points, found, str(failure), converged=False)
         limit = np.inf if stop is None else stop[0]
-        found += _sorted(step_taken, walk, wanted, limit, len(points) - 1)
+        for event in _sorted(step_taken, walk, wanted, limit, len(points) - 1):
+            reason = None if until is None else until(event)
+            if reason:
+                return _ended([*points, event.point], found, reason, where=event.where)
+            found.append(event)
         points.append(step_taken.point if stop is None else stop[1])
         if watch is not None:
             watch(points[-1])
         if stop is not None:
-            return _ended(points, found, stop[2], converged=not stop[2].startswith("it runs away"))
+            runaway = stop[2].startswith("it runs away")
+            return _ended(points, found, stop[2], converged=not runaway, where=len(points) - 2 + stop[0])
 
 
 def _sorted(step: Step, walk: Walk, wanted: list[SingularPoints | Zero], limit: float, before: int) -> Iterator[Event]:
@@ -150,7 +190,16 @@ def _sorted(step: Step, walk: Walk, wanted: list[SingularPoints | Zero], limit: 
             yield replace(event, where=before + event.where)
 
 
-def _ended(points: list[Point], events: list[Event], reason: str, *, converged: bool = True) -> Branch:
+def _turned(p: Point, accepted: str) -> Point:
+    return replace(p, tangent=None if p.tangent is None else -p.tangent, accepted=accepted)
+
+
+def _ended(
+    points: list[Point], events: list[Event], reason: str, *, converged: bool = True, where: float | None = None
+) -> Branch:
     last = points[-1]
+    if where is not None:  # the events of the last step are counted in the part of it that is left
+        start = len(points) - 2
+        events = [replace(e, where=start + (e.where - start) / (where - start)) if e.where > start else e for e in events]
     end = Event("end", last.lam, 0.0, last, reason=reason, converged=converged, where=len(points) - 1.0)
     return Branch(points, [*events, end])

@@ -1,6 +1,6 @@
 """Where a branch ends: at a load, back where it began, outside of the limits given. The first on a step counts."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -57,6 +57,30 @@ def at_load(curve: Curve, segment: Segment, part: float, lam: float, accepted: s
     return on_its_mesh(Point(curve.equations, lam, u, found.history, found.remaining, t, accepted, known))
 
 
+def passed(curve: Curve, segment: Segment, part: float, lam: float, accepted: str) -> Point:
+    """The same, where a fold or branch point next to it hides the load: across the branch instead, between both ends."""
+    try:
+        return at_load(curve, segment, part, lam, accepted)
+    except NoConvergence:
+        if not (segment.a[-1] - lam) * (segment.b[-1] - lam) < 0:
+            raise
+        exact, y = by_arclength(curve, segment, lam)
+        t = curve.tangent(y, segment.derivative(exact * segment.length))
+        return Point(curve.equations, lam, y[:-1].copy(), tangent=t, accepted=accepted)
+
+
+def by_arclength(curve: Curve, segment: Segment, load: float) -> tuple[float, Array]:
+    """Where on a segment a load is passed, by solutions across the branch: good next to a fold too."""
+
+    def off(x: float) -> float:
+        return float(curve.correct(segment.at(x * segment.length), segment.row).y[-1]) - load
+
+    part = root(off, 0.0, 1.0)
+    y = curve.correct(segment.at(part * segment.length), segment.row).y
+    y[-1] = load
+    return part, y
+
+
 def inside_of(within: Within) -> Callable[[Point], bool]:
     """True for points within the limits; `ValueError` for limits that are none."""
     if within is None:
@@ -84,13 +108,13 @@ def _measure(p: Point, name: str) -> float:
 class Stops:
     """Where a step ends the branch: the first of all reasons on it."""
 
-    def __init__(self, walk: Walk, p: Point, to: float, within: Within, inside: Callable[[Point], bool]) -> None:
-        self.walk, self.start, self.to, self.within, self.inside = walk, walk.here, to, within, inside
+    def __init__(self, walk: Walk, p: Point, ends: Sequence[float], within: Within, inside: Callable[[Point], bool]) -> None:
+        self.walk, self.start, self.to, self.within, self.inside = walk, walk.here, ends[0], within, inside
         self.equations = p.equations
-        setting_out = float(walk.here.tangent[-1]) * (to - p.lam) > 0
-        self.loads = {to: f"lam = {to:g} reached"}
+        setting_out = float(walk.here.tangent[-1]) * (ends[0] - p.lam) > 0
+        self.loads = {end: f"lam = {end:g} reached" for end in ends}
         if setting_out:
-            self.loads[p.lam] = f"back at lam = {p.lam:g}"
+            self.loads.setdefault(p.lam, f"back at lam = {p.lam:g}")
         self.steps = 0
 
     def of(self, step: Step) -> tuple[float, Point, str] | None:
@@ -104,27 +128,16 @@ class Stops:
         known = step.point.known_inertia if step.proved and not step.windows else None
         for load, reason in self.loads.items():
             for part in passages(segment, load):
-                if self.steps == 1 and part < BEGUN and load != self.to:
+                if self.steps == 1 and part < BEGUN and load == float(self.start.y[-1]):
                     continue  # the first point itself, moved by rounding
                 try:
                     yield part, at_load(curve, segment, part, load, step.point.accepted, known), reason
                     break
                 except NoConvergence:  # a fold in the same place; or only the cubic passes this load
                     if (segment.a[-1] - load) * (segment.b[-1] - load) < 0:
-                        exact, y = self._by_arclength(segment, load)
+                        exact, y = by_arclength(curve, segment, load)
                         yield exact, self._point(segment, exact, step, y), reason
                         break
-
-    def _by_arclength(self, segment: Segment, load: float) -> tuple[float, Array]:
-        """Where a load is passed, by solutions across the branch: good next to a fold too."""
-
-        def off(x: float) -> float:
-            return float(self.walk.curve.correct(segment.at(x * segment.length), segment.row).y[-1]) - load
-
-        part = root(off, 0.0, 1.0)
-        y = self.walk.curve.correct(segment.at(part * segment.length), segment.row).y
-        y[-1] = load
-        return part, y
 
     def _closing(self, step: Step) -> Iterator[tuple[float, Point, str]]:
         segment, curve, old = step.segment, self.walk.curve, self.equations

@@ -7,8 +7,6 @@ from itertools import pairwise
 import numpy as np
 
 from rodlab.analysis.follow import Branch
-from rodlab.analysis.point import Point
-from rodlab.analysis.stops import piece
 from rodlab.numerics.arrays import Array
 
 FINE = 12  # parts of a step that are drawn
@@ -36,7 +34,7 @@ def pieces(branch: Branch, measure: str) -> list[Piece]:
     for start, stop in pairwise(cuts):
         if stop - start < 1e-9:
             continue
-        middle = point_at(branch, (start + stop) / 2)
+        middle = branch.along((start + stop) / 2)
         index = middle.index if middle.index_verified else None
         lam, value = (np.array(column) for column in zip(*_samples(branch, measure, start, stop), strict=True))
         if found and found[-1].index == index:
@@ -46,18 +44,8 @@ def pieces(branch: Branch, measure: str) -> list[Piece]:
     return found
 
 
-def point_at(branch: Branch, where: float) -> Point:
-    """The point at a place along the branch, counted in points; between them on the cubic."""
-    i = min(int(where), len(branch.points) - 2)
-    if where == i or i < 0:
-        return branch.points[max(i, 0)]
-    segment = piece(branch.points[i], branch.points[i + 1])
-    y = segment.at((where - i) * segment.length)
-    return Point(branch.points[i + 1].equations, float(y[-1]), y[:-1])
-
-
 def _samples(branch: Branch, measure: str, start: float, stop: float) -> Iterator[tuple[float, float]]:
     inner = np.arange(np.floor(start * FINE) + 1, np.ceil(stop * FINE)) / FINE
     for where in [start, *inner, stop]:
-        p = point_at(branch, float(where))
+        p = branch.along(float(where))
         yield p.lam, p.measure(measure)

@@ -18,6 +18,7 @@ import numpy as np
 
 from rodlab.mechanics import bounds, remesh, resolution, rod_bounds
 from rodlab.mechanics.kernels import density
+from rodlab.mechanics.mirror import mirror
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.recipe import changed, kept, rod_recipe_of, said_of_rod
 from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term, checked
@@ -35,7 +36,14 @@ if TYPE_CHECKING:
 FIRST = 4  # intervals of the first mesh
 HIGHEST = 32  # degree
 NEAREST = 1e-9  # distance of breaks
-DERIVED = ("companion", "compliance", "_stiff", "_with_load", "_without_load")  # computed once, from mesh and parameters
+DERIVED = (
+    "companion",
+    "compliance",
+    "_stiff",
+    "_with_load",
+    "_without_load",
+    "symmetries",
+)  # computed once, from mesh and parameters
 
 
 class Rod:
@@ -348,6 +356,11 @@ class Rod:
             return False
         zero = np.zeros(self.size)
         return not (self.residual(zero, 0.0).any() or self.residual(zero, 1.0).any())
+
+    @cached_property
+    def symmetries(self) -> tuple[Callable[[Array], Array], ...]:
+        """Maps of the unknowns that take equilibria to equilibria: the mirror image, where the energy is the same for it."""
+        return mirror(self, self.size)
 
     def height(self, u: Array) -> float:
         """z of the tip."""

@@ -19,6 +19,7 @@ from rodlab.mechanics import joints as joints_of
 from rodlab.mechanics.assembly import balance, difference_form, full
 from rodlab.mechanics.joints import Joints
 from rodlab.mechanics.kernels import Kernel, kernel
+from rodlab.mechanics.mirror import mirror
 from rodlab.mechanics.places import Places
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.recipe import changed, kept, recipe_of, said_of
@@ -134,7 +135,7 @@ class Strut:
         if joints.k is not self.joints.k:
             other.springs = Springs(joints.k)
         other._bend(curved=True)
-        for name in ("places", "_with_load", "_without_load", "carried"):
+        for name in ("places", "_with_load", "_without_load", "carried", "symmetries"):
             other.__dict__.pop(name, None)
         return other
 
@@ -276,6 +277,11 @@ class Strut:
             return False
         zero = np.zeros(self.n)
         return not (self.gradient(zero, 0.0).any() or self.gradient(zero, 1.0).any())
+
+    @cached_property
+    def symmetries(self) -> tuple[Callable[[Array], Array], ...]:
+        """Maps of the angles that take equilibria to equilibria: the mirror image, where the energy is the same for it."""
+        return mirror(self, self.n)
 
     def height(self, phi: Any) -> float:
         """z of the tip."""

@@ -80,7 +80,7 @@ class VariedStrut:
             return self.strut.replace(**{self.name: lambda s: value * profile(s)})
         return self.strut.replace(**{self.name: value * np.asarray(self._profile)})
 
-    def _at(self, value: float) -> "Strut":
+    def sharing(self, value: float) -> "Strut":
         """The same, sharing all that does not change."""
         if self._last is not None and self._last[0] == value:
             return self._last[1]
@@ -102,17 +102,17 @@ class VariedStrut:
 
     def residual(self, u: Array, value: float) -> Array:
         """The gradient of the energy at the fixed load."""
-        return self._at(value).gradient(u, self.lam)
+        return self.sharing(value).gradient(u, self.lam)
 
     def jacobian(self, u: Array, value: float) -> Any:
         """The Hessian."""
-        return self._at(value).hessian(u, self.lam)
+        return self.sharing(value).hessian(u, self.lam)
 
     second_variation = jacobian
 
     def d_lam(self, u: Array, value: float) -> Array:
         """d(gradient)/d(value), shape (n,)."""
-        strut = self._at(value)
+        strut = self.sharing(value)
         if self.name in CLAMP:
             out = np.zeros(strut.n)
             out[0] = -strut.joints.k[0]
@@ -138,15 +138,15 @@ class VariedStrut:
         """The strut's, at the fixed load."""
         return {
             "tip_angle": lambda u, _: float(u[-1]),
-            "height": lambda u, value: self._at(value).height(u),
-            "energy": lambda u, value: float(self._at(value).energy(u, self.lam)),
+            "height": lambda u, value: self.sharing(value).height(u),
+            "energy": lambda u, value: float(self.sharing(value).energy(u, self.lam)),
         }
 
     def lipschitz(self, u: Array, value: float) -> bounds.Bound:
         """As the strut's; known where the parameter takes no part in the Hessian: rest angles, the clamp, an end torque."""
         if self.name not in ("u_hat", "beta", "phi0", "beta0", "tau"):
             return bounds.unknown
-        bound = self._at(value).lipschitz(u, self.lam)
+        bound = self.sharing(value).lipschitz(u, self.lam)
 
         def unmoved(du: Any, _: float) -> tuple[Any, Any]:
             return bound(du, 0.0)[0], 0.0
@@ -155,11 +155,11 @@ class VariedStrut:
 
     def embedding(self, value: float) -> tuple[float, float]:
         """As the strut's."""
-        return self._at(value).embedding(self.lam)
+        return self.sharing(value).embedding(self.lam)
 
     def rounding(self, u: Array, value: float, v: Array) -> float:
         """As the strut's."""
-        return self._at(value).rounding(u, self.lam, v)
+        return self.sharing(value).rounding(u, self.lam, v)
 
     def start(self, guess: Any = None) -> Array:
         """As the strut's."""
@@ -167,5 +167,5 @@ class VariedStrut:
 
     def shape_at(self, u: Array, value: float) -> tuple[Array, Array, Array, Array]:
         """s, phi and x, z of the shape at a value of the parameter, which may be the clamp's angle."""
-        strut = self._at(value)
+        strut = self.sharing(value)
         return *strut.nodes(u), *strut.shape(u)

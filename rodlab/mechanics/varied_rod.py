@@ -65,7 +65,7 @@ class VariedRod:
         """The parameter at Gauss's points of a rod's mesh, at the value 1."""
         return 1.0 if self.scalar or self.profile is None else self.profile.at(rod.grid.s)
 
-    def _at(self, value: float) -> "Rod":
+    def sharing(self, value: float) -> "Rod":
         """The same on this mesh, sharing all that does not change."""
         if self._last is not None and self._last[0] == value:
             return self._last[1]
@@ -102,19 +102,19 @@ class VariedRod:
 
     def residual(self, u: Array, value: float) -> Array:
         """The gradient of the energy at the fixed load."""
-        return self._at(value).residual(u, self.lam)
+        return self.sharing(value).residual(u, self.lam)
 
     def residual_wide(self, u: Array, value: float) -> Array:
         """The same to more digits."""
-        return self._at(value).residual_wide(u, self.lam)
+        return self.sharing(value).residual_wide(u, self.lam)
 
     def jacobian(self, u: Array, value: float) -> Collocated:
         """The Hessian."""
-        return self._at(value).jacobian(u, self.lam)
+        return self.sharing(value).jacobian(u, self.lam)
 
     def d_lam(self, u: Array, value: float) -> Array:
         """d(gradient)/d(value), shape (N m,)."""
-        rod = self._at(value)
+        rod = self.sharing(value)
         if self.name == "phi0":
             return _first_column(rod, u, self.lam)
         return rod.by(self.name, u, self.lam, self._unit(rod))
@@ -131,7 +131,7 @@ class VariedRod:
         return {name: partial(self._measure, name) for name in self.rod.measures}
 
     def _measure(self, name: str, u: Array, value: float) -> float:
-        return float(self._at(value).measures[name](u, self.lam))
+        return float(self.sharing(value).measures[name](u, self.lam))
 
     def seen(self, u: Array) -> Array:
         """As the rod's."""
@@ -141,7 +141,7 @@ class VariedRod:
         """As the rod's; known where the parameter takes no part in the Hessian: u_hat and an end torque."""
         if self.name not in ("u_hat", "tau"):
             return bounds.unknown
-        bound = self._at(value).lipschitz(u, self.lam)
+        bound = self.sharing(value).lipschitz(u, self.lam)
 
         def unmoved(moved: Any, _: float) -> tuple[Any, Any]:
             return bound(moved, 0.0)[0], 0.0
@@ -150,27 +150,27 @@ class VariedRod:
 
     def embedding(self, value: float) -> tuple[float, float]:
         """As the rod's."""
-        return self._at(value).embedding(self.lam)
+        return self.sharing(value).embedding(self.lam)
 
     def rounding(self, u: Array, value: float, v: Array) -> float:
         """As the rod's."""
-        return self._at(value).rounding(u, self.lam, v)
+        return self.sharing(value).rounding(u, self.lam, v)
 
     def error(self, u: Array, value: float) -> float:
         """As the rod's."""
-        return self._at(value).error(u, self.lam)
+        return self.sharing(value).error(u, self.lam)
 
     def inertia(self, u: Array, value: float) -> Inertia:
         """As the rod's."""
-        return self._at(value).inertia(u, self.lam)
+        return self.sharing(value).inertia(u, self.lam)
 
     def missed(self, u: Array, value: float, v: Array) -> tuple[float, float]:
         """As the rod's."""
-        return self._at(value).missed(u, self.lam, v)
+        return self.sharing(value).missed(u, self.lam, v)
 
     def adapted(self, u: Array, value: float, tangent: Array | None = None) -> "tuple[VariedRod, Array, Array | None] | None":
         """The same on a mesh that serves; None where its own does."""
-        better = remesh.adapted(self._at(value), u, self.lam, tangent)
+        better = remesh.adapted(self.sharing(value), u, self.lam, tangent)
         return None if better is None else (self._on(better[0]), better[1], better[2])
 
     def moved(self, other: "VariedRod", u: Array, *, direction: bool = False) -> Array:
@@ -183,11 +183,11 @@ class VariedRod:
 
     def shape_at(self, u: Array, value: float) -> tuple[Array, Array, Array, Array]:
         """As the rod's."""
-        return self._at(value).shape_at(u, self.lam)
+        return self.sharing(value).shape_at(u, self.lam)
 
     def between(self, u: Array, value: float, s: Array) -> tuple[Array, Array, Array]:
         """As the rod's."""
-        return self._at(value).between(u, self.lam, s)
+        return self.sharing(value).between(u, self.lam, s)
 
 
 def _scaled(profile: Profile, value: float, *, scalar: bool) -> Profile:

@@ -1,0 +1,154 @@
+"""All equilibria of a strut at a load: certified to be all, or said why not.
+
+covered     every tip angle decided by enclosures: complete           rodlab.mechanics.enumerate
+sampled     the same function in floats: none missed between samples   rodlab.mechanics.sampled
+Krawczyk    each one proved to exist and to be alone near by           rodlab.mechanics.krawczyk
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from rodlab.analysis.newton import Newton, NoConvergence
+from rodlab.analysis.point import Point
+from rodlab.mechanics.enumerate import CLOSE, Root, cover
+from rodlab.mechanics.krawczyk import krawczyk
+from rodlab.mechanics.sampled import sampled
+from rodlab.mechanics.strut import Strut
+from rodlab.numerics.arrays import Array, number, whole
+from rodlab.numerics.balls import ENGINES, engine_of
+from rodlab.numerics.inertia import Inertia
+
+WORK = {"flint": 10_000_000, "mpmath": 500_000}  # joints of all boxes before giving up: a minute or some
+
+
+@dataclass(frozen=True, eq=False)
+class Equilibria:
+    """The equilibria of `strut` at `lam`, lowest energy first. `certified`: proved to be all, each alone and its index exact.
+
+    method: how they were found, in words. reason: why they are not certified, else empty.
+    """
+
+    strut: Strut
+    lam: float
+    points: tuple[Point, ...]
+    certified: bool
+    method: str
+    reason: str = ""
+
+    def __repr__(self) -> str:
+        said = "certified" if self.certified else f"not certified: {self.reason}"
+        return f"Equilibria({len(self.points)} at lam = {self.lam:g}; {self.method}; {said})"
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def __iter__(self) -> Iterator[Point]:
+        return iter(self.points)
+
+    @property
+    def index_sum(self) -> int | None:
+        """Sum of (-1)^index: 1 where none is degenerate, as V grows in every direction [Morse]. None where an index is open."""
+        if not all(p.index_verified for p in self.points):
+            return None
+        return sum(-1 if p.index and p.index % 2 else 1 for p in self.points)
+
+    @cached_property
+    def images(self) -> tuple[int | None, ...]:
+        """For each point the position of its mirror image, its own where it is symmetric; None for a strut without symmetry."""
+        if not self.strut.symmetries:
+            return (None,) * len(self.points)
+        (mirror,) = self.strut.symmetries
+        places = {_key(p.u): i for i, p in enumerate(self.points)}
+        return tuple(places.get(_key(mirror(p.u))) for p in self.points)
+
+    def symmetry(self, i: int) -> str:
+        """The symmetry class of a point: "symmetric", "mirror pair", or "none" where the strut itself has none."""
+        image = self.images[i]
+        return "none" if image is None else "symmetric" if image == i else "mirror pair"
+
+
+def all_equilibria(
+    strut: Strut, lam: float, certify: bool = True, *, most: int | None = None, engine: str | None = None
+) -> Equilibria:
+    """Every equilibrium of a strut at a load, by the standard map: roots of one function of the tip angle in one turn.
+
+    certify: prove it, by ball arithmetic (python-flint) or, where that is missing, mpmath's intervals; `engine` names one.
+    Equilibria closer than 1e-6 radians to each other are one that is degenerate, and not certified. Where `most` boxes do not
+    suffice (long struts at high loads) the equilibria are those that samples show, each proved to exist.
+    Cost: O(n) for each box; boxes grow with the number of equilibria, thousands of them in seconds.
+    Raises `ValueError` for a foundation or terms of one's own; `NoConvergence` where there are too many to be told apart.
+
+    >>> found = all_equilibria(Strut.from_joints(k=[1, 1]), lam=3.0)
+    >>> [(round(p.tip_angle, 6), p.index) for p in found], found.certified, found.index_sum
+    ([(2.165168, 0), (-2.165168, 0), (-0.547411, 1), (0.547411, 1), (0.0, 2)], True, 1)
+    """
+    if not isinstance(strut, Strut):
+        raise ValueError(f"strut must be a Strut; it is {strut!r:.60}")
+    lam = number("lam", lam)
+    if engine is not None and engine not in ENGINES:
+        raise ValueError(f"engine must be one of {', '.join(ENGINES)}; it is {engine!r}")
+    if not certify:
+        return _sampled(strut, lam, (), None)
+    chosen = engine_of(engine)
+    boxes = WORK[chosen] // strut.n + 100 if most is None else whole("most", most, least=1)
+    found = cover(strut, lam, most=boxes, engine=chosen)
+    if not found.complete:
+        return _sampled(strut, lam, (f"{found.boxes} boxes did not suffice to cover all tip angles",), chosen)
+    points = [_point(strut, lam, root) for root in (*found.roots, *found.clusters)]
+    method = f"one turn of tip angles covered by {found.boxes} boxes in {found.method}"
+    reason = ""
+    if found.clusters:
+        near = f"next to the tip angle {found.clusters[0].phi[-1]:.6g}"
+        reason = (
+            f"{len(found.clusters)} degenerate {near}, one or several: the load is that of a fold or branch point, to rounding"
+        )
+    return Equilibria(strut, lam, _ordered(points), not found.clusters, method, reason)
+
+
+def _sampled(strut: Strut, lam: float, why: Sequence[str], engine: str | None) -> Equilibria:
+    """Those that samples show, corrected; with an engine each is proved to exist."""
+    shown = sampled(strut, lam)
+    if shown is None:
+        raise NoConvergence(
+            f"there are too many equilibria at lam = {lam:g} to be told apart: the map of {strut!r} is chaotic", ()
+        )
+    run, points, reasons = Newton.at(strut, lam), dict[tuple[float, ...], Point](), list(why)
+    lost = unproved = 0
+    for phi in shown:
+        try:
+            root = run.solve(phi)
+        except NoConvergence:
+            lost += 1
+            continue
+        p = Point(strut, lam, root.u, root.history, root.remaining)
+        proof = None if engine is None else krawczyk(strut, lam, p.u, engine)
+        unproved += proof is None and engine is not None
+        points.setdefault(_key(p.u), p if proof is None else _point(strut, lam, proof))
+    doubled = len(shown) - lost - len(points)
+    if lost or doubled:
+        reasons.append(f"{lost} more could not be corrected and {doubled} fell onto others")
+    if unproved:
+        reasons.append(f"{unproved} of these could not be proved to exist")
+    if engine is None:
+        reasons.append("nothing was proved, as certify=False")
+    method = "sampled tip angles in floats" + ("" if engine is None else ", each equilibrium proved by Krawczyk's test")
+    found = Equilibria(strut, lam, _ordered(points.values()), False, method, "; ".join(reasons))
+    if found.index_sum not in (1, None):
+        reasons.append(f"the sum of (-1)^index is {found.index_sum} and not 1, so some are missing")
+    return Equilibria(strut, lam, found.points, False, method, "; ".join(reasons))
+
+
+def _point(strut: Strut, lam: float, root: Root) -> Point:
+    known = None if root.index is None else Inertia(root.index, 0, strut.n - root.index)
+    return Point(strut, lam, root.phi, (), root.radius, known_inertia=known)
+
+
+def _ordered(points: Iterable[Point]) -> tuple[Point, ...]:
+    return tuple(sorted(points, key=lambda p: (round(p.energy, 9), p.index, -abs(p.tip_angle), -p.tip_angle)))
+
+
+def _key(u: Array) -> tuple[float, ...]:
+    return tuple(np.round(u / CLOSE) + 0.0)
