@@ -7,6 +7,8 @@
     p.tip_angle, p.error, p.index, p.energy
     b = rl.follow(rl.equilibrium(strut, 0.0), to=30.0); b.points, b.events
     starts = rl.switch(b.events[0])
+    rl.diagram(strut, lam=(0, 130)).table
+    rl.all_equilibria(strut, lam=130.0).certified
 
 Names are imported when they are first used: `import rodlab` brings in no other package.
 """
@@ -16,21 +18,30 @@ from rodlab.version import __version__ as __version__
 TYPE_CHECKING = False  # what type checkers take for true; importing typing would double the time
 if TYPE_CHECKING:
     from rodlab.analysis.continuation import branch
+    from rodlab.analysis.deflation import deflation
+    from rodlab.analysis.diagram import Diagram, diagram
+    from rodlab.analysis.distinguished import Distinguished, distinguished
     from rodlab.analysis.downhill import steepest_descent
     from rodlab.analysis.equations import Equations
     from rodlab.analysis.equilibrium import equilibrium
     from rodlab.analysis.events import Event, branch_point, fold
+    from rodlab.analysis.expansion import Expansion, expansion
     from rodlab.analysis.follow import Branch, follow
+    from rodlab.analysis.imperfection import Imperfection, imperfection
     from rodlab.analysis.newton import Newton, NoConvergence
     from rodlab.analysis.point import Point, Shape
     from rodlab.analysis.switching import switch
+    from rodlab.analysis.unfolding import branch_points, folds
     from rodlab.analysis.vary import vary
+    from rodlab.lab.census import census
+    from rodlab.lab.equilibria import Equilibria, all_equilibria
     from rodlab.lab.saved import read
     from rodlab.mechanics.buckling import Buckling, buckling, buckling_loads
     from rodlab.mechanics.conjugate import conjugate_points
     from rodlab.mechanics.convexity import uniqueness
     from rodlab.mechanics.elastica import Elastica, elastica
     from rodlab.mechanics.invariants import Invariants, invariants
+    from rodlab.mechanics.koiter import Koiter, koiter
     from rodlab.mechanics.rod import Rod
     from rodlab.mechanics.strut import Strut
     from rodlab.mechanics.terms import Term, end_torque, foundation, self_weight, term
@@ -42,10 +53,16 @@ _HOME = {
     "Bordered": "numerics.bordered",
     "Branch": "analysis.follow",
     "Buckling": "mechanics.buckling",
+    "Diagram": "analysis.diagram",
+    "Distinguished": "analysis.distinguished",
     "Elastica": "mechanics.elastica",
     "Equations": "analysis.equations",
+    "Equilibria": "lab.equilibria",
     "Event": "analysis.events",
+    "Expansion": "analysis.expansion",
+    "Imperfection": "analysis.imperfection",
     "Invariants": "mechanics.invariants",
+    "Koiter": "mechanics.koiter",
     "Newton": "analysis.newton",
     "NoConvergence": "analysis.newton",
     "Point": "analysis.point",
@@ -54,19 +71,29 @@ _HOME = {
     "Strut": "mechanics.strut",
     "Term": "mechanics.terms",
     "Tridiagonal": "numerics.tridiagonal",
+    "all_equilibria": "lab.equilibria",
     "branch": "analysis.continuation",
     "branch_point": "analysis.events",
+    "branch_points": "analysis.unfolding",
     "buckling": "mechanics.buckling",
     "buckling_loads": "mechanics.buckling",
-    "elastica": "mechanics.elastica",
+    "census": "lab.census",
     "conjugate_points": "mechanics.conjugate",
+    "deflation": "analysis.deflation",
+    "diagram": "analysis.diagram",
+    "distinguished": "analysis.distinguished",
+    "elastica": "mechanics.elastica",
     "end_torque": "mechanics.terms",
     "equilibrium": "analysis.equilibrium",
+    "expansion": "analysis.expansion",
     "factor": "numerics.factor",
     "fold": "analysis.events",
+    "folds": "analysis.unfolding",
     "follow": "analysis.follow",
     "foundation": "mechanics.terms",
+    "imperfection": "analysis.imperfection",
     "invariants": "mechanics.invariants",
+    "koiter": "mechanics.koiter",
     "read": "lab.saved",
     "self_weight": "mechanics.terms",
     "steepest_descent": "analysis.downhill",
@@ -77,11 +104,12 @@ _HOME = {
 }
 
 __all__ = [  # the same names; a test compares
-    "Bordered", "Branch", "Buckling", "Elastica", "Equations", "Event", "Invariants", "Newton", "NoConvergence", "Point", "Rod",
-    "Shape", "Strut", "Term", "Tridiagonal", "branch", "branch_point", "buckling", "buckling_loads", "conjugate_points",
-    "elastica", "end_torque",
-    "equilibrium", "factor", "fold", "follow", "foundation", "invariants", "read", "self_weight", "steepest_descent",
-    "switch", "term", "uniqueness", "vary",
+    "Bordered", "Branch", "Buckling", "Diagram", "Distinguished", "Elastica", "Equations", "Equilibria", "Event",
+    "Expansion", "Imperfection", "Invariants", "Koiter", "Newton", "NoConvergence", "Point", "Rod", "Shape", "Strut",
+    "Term", "Tridiagonal", "all_equilibria", "branch", "branch_point", "branch_points", "buckling", "buckling_loads",
+    "census", "conjugate_points", "deflation", "diagram", "distinguished", "elastica", "end_torque", "equilibrium",
+    "expansion", "factor", "fold", "folds", "follow", "foundation", "imperfection", "invariants", "koiter", "read",
+    "self_weight", "steepest_descent", "switch", "term", "uniqueness", "vary",
 ]  # fmt: skip
 
 

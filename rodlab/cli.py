@@ -21,9 +21,9 @@ WELCOME = f"""rodlab {__version__}: a teaching laboratory for elastic rods
 Five commands to try:
   rodlab tour                                     the strut: branches, buckling loads and shapes, as n grows
   rodlab buckling --model rod --K "(1+s)**2"      buckling loads, with error bounds; -n 400 for a strut
-  rodlab follow -n 100 --u-hat 0.01 --to 30       a branch with its events; --mode 1 for the one that buckles
-  rodlab scenes                                   the situations of the notes by name
-  rodlab run imperfect --out imperfect            one of them: branches, events, picture and data
+  rodlab diagram -n 100 --to 130 --out all.png    every branch up to a load, special points, number of solutions
+  rodlab equilibria -n 5 --lam 60                 every equilibrium at a load, certified to be all
+  rodlab run imperfect --out imperfect            a scene: branches, events, picture and data; rodlab scenes lists them
 """
 
 
@@ -124,6 +124,69 @@ def follow(chosen: argparse.Namespace) -> int:
     return 0 if branch.completed else _complain("follow", branch.reason, 3)
 
 
+def diagram(chosen: argparse.Namespace) -> int:
+    """rodlab diagram"""
+    from pathlib import Path
+
+    from rodlab.analysis.diagram import diagram
+    from rodlab.files import write_whole
+    from rodlab.lab.census import census
+    from rodlab.lab.charts import diagram_tables, of_diagram
+    from rodlab.lab.store import as_json, framed
+    from rodlab.mechanics.recipe import build
+
+    start = time.perf_counter()
+    asked = {**_model(chosen), "u_hat": _number_or_text(chosen.u_hat)}
+    model: Any = build(asked)
+    path = _picture_path(chosen.out)
+    draw = census if chosen.detached else diagram
+    found = draw(model, (chosen.start, chosen.to), step=chosen.step, watch=_watched("points", 10**6))
+    written = []
+    if path is not None:
+        from rodlab.lab.diagram_picture import diagram_picture
+        from rodlab.lab.picture import drawn
+
+        written = [str(write_whole(Path(path), drawn(diagram_picture(found, chosen.y), path)))]
+    seconds = time.perf_counter() - start
+    if chosen.json:
+        asked |= {"from": chosen.start, "to": chosen.to}
+        print(as_json(framed("diagram", seconds, {**asked, **of_diagram(found), "files": written})))
+    else:
+        print(diagram_tables(f"Special points of {model!r}", found))
+        print(f"in {seconds:.2f} s" + "".join(f"; written: {path}" for path in written))
+    return 0 if found.complete else _complain("diagram", "the diagram is not complete: the table says where", 3)
+
+
+def equilibria(chosen: argparse.Namespace) -> int:
+    """rodlab equilibria"""
+    from pathlib import Path
+
+    from rodlab.files import write_whole
+    from rodlab.lab.charts import equilibria_table, of_equilibria
+    from rodlab.lab.equilibria import all_equilibria
+    from rodlab.lab.store import as_json, framed
+    from rodlab.mechanics.recipe import build
+
+    start = time.perf_counter()
+    asked = {**_model(chosen), "u_hat": _number_or_text(chosen.u_hat)}
+    strut: Any = build(asked)
+    path = _picture_path(chosen.out)
+    found = all_equilibria(strut, chosen.lam, certify=chosen.certify is not False, engine=chosen.engine)
+    written = []
+    if path is not None:
+        from rodlab.lab.map_picture import map_picture
+        from rodlab.lab.picture import drawn
+
+        written = [str(write_whole(Path(path), drawn(map_picture(found), path)))]
+    if chosen.json:
+        said = of_equilibria(found, connected=chosen.connected)
+        print(as_json(framed("equilibria", time.perf_counter() - start, {**asked, "lam": chosen.lam, **said, "files": written})))
+    else:
+        print(equilibria_table(found, connected=chosen.connected))
+        print(f"in {time.perf_counter() - start:.2f} s" + "".join(f"; written: {path}" for path in written))
+    return 0 if found.certified or not chosen.certify else _complain("equilibria", f"not certified: {found.reason}", 1)
+
+
 def scenes(chosen: argparse.Namespace) -> int:
     """rodlab scenes"""
     from rodlab.lab.scene import scenes
@@ -195,6 +258,26 @@ def _parser() -> argparse.ArgumentParser:
     verb.add_argument("--max-points", type=int, default=10_000, help="points at most (default: %(default)s)")
     verb.add_argument("--out", metavar="FILE", help="also save the branch, to a .json or .npz file")
 
+    verb = _verb(verbs, diagram, "every branch connected to the unstressed shape in a window of loads, and all special points")
+    _model_options(verb, 100)
+    verb.add_argument("--u-hat", default="0", help="unstressed curvature: a number or an expression in s (default: 0)")
+    verb.add_argument("--from", dest="start", type=float, default=0.0, metavar="LAM", help="lower edge (default: 0)")
+    verb.add_argument("--to", type=float, required=True, metavar="LAM", help="upper edge of the window")
+    verb.add_argument("--detached", action="store_true", help="also the branches that are not connected")
+    verb.add_argument("--step", type=float, help="first and longest length of a step (default: by error)")
+    verb.add_argument("--y", choices=["tip_angle", "height", "energy"], default="tip_angle", help="what the picture shows")
+    verb.add_argument("--out", metavar="FILE", help="draw it, to a .png, .pdf or .svg file")
+
+    verb = _verb(verbs, equilibria, "every equilibrium of a strut at a load, certified to be all")
+    _model_options(verb, 5, models=("strut",))
+    verb.add_argument("--u-hat", default="0", help="unstressed curvature: a number or an expression in s (default: 0)")
+    verb.add_argument("--lam", type=float, required=True, help="the load")
+    certify = argparse.BooleanOptionalAction
+    verb.add_argument("--certify", action=certify, help="prove that these are all (default); given, it is a check that may fail")
+    verb.add_argument("--connected", action=certify, default=True, help="say which are connected to the unstressed shape")
+    verb.add_argument("--engine", choices=["flint", "mpmath"], help="arithmetic of the proof (default: flint if installed)")
+    verb.add_argument("--out", metavar="FILE", help="draw them on the standard map, to a .png, .pdf or .svg file")
+
     _verb(verbs, scenes, "the situations of the notes by name")
 
     verb = _verb(verbs, run, "run a scene: its branches, events, picture and data")
@@ -218,16 +301,19 @@ def _model(chosen: argparse.Namespace) -> dict[str, Any]:
     return recipe
 
 
-def _model_options(verb: argparse.ArgumentParser, n: int) -> None:
-    verb.add_argument("--model", choices=["strut", "rod"], default="strut", help="the model (default: %(default)s)")
+def _model_options(verb: argparse.ArgumentParser, n: int, models: Sequence[str] = ("strut", "rod")) -> None:
+    verb.add_argument("--model", choices=models, default="strut", help="the model (default: %(default)s)")
     verb.add_argument("-n", type=int, help=f"of a strut: number of joints (default: {n})")
     verb.set_defaults(joints=n)
     verb.add_argument("--rule", help="of a strut: end or trapezoid (default: end)")
+    verb.add_argument("--breaks", type=float, nargs="+", default=[], metavar="S", help="where K or u_hat jumps")
+    verb.add_argument("--K", default="1", help='bending stiffness: a number or an expression in s, "1+s" (default: 1)')
+    verb.set_defaults(degree=None, mesh=None, tol=None)
+    if "rod" not in models:
+        return
     verb.add_argument("--degree", type=int, help="of a rod: degree of the collocated polynomials (default: 6)")
     verb.add_argument("--mesh", type=int, help="of a rod: number of intervals (default: adapted)")
     verb.add_argument("--tol", type=float, help="of a rod: error of the angles that the mesh is adapted to (default: 1e-10)")
-    verb.add_argument("--K", default="1", help='bending stiffness: a number or an expression in s, "1+s" (default: 1)')
-    verb.add_argument("--breaks", type=float, nargs="+", default=[], metavar="S", help="where K or u_hat jumps")
 
 
 def _verb(verbs: Any, run: Any, what: str) -> argparse.ArgumentParser:
@@ -235,6 +321,15 @@ def _verb(verbs: Any, run: Any, what: str) -> argparse.ArgumentParser:
     parser.add_argument("--json", action="store_true", help="one JSON object on stdout, numbers at full precision")
     parser.set_defaults(run=run)
     return parser
+
+
+def _picture_path(out: str | None) -> str | None:
+    """The file to draw to; a wrong name is said before the work, not after it."""
+    from rodlab.lab.picture import FORMATS
+
+    if out is not None and not out.endswith(FORMATS):
+        raise ValueError(f"out must end in {', '.join(FORMATS)}; it is {out!r}")
+    return out
 
 
 def _number_or_text(text: str) -> float | str:

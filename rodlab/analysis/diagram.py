@@ -51,14 +51,16 @@ class Special:
 
 @dataclass(frozen=True, eq=False)
 class Diagram:
-    """All branches found, number 0 through the start; `copies[i]`: how many images branch i stands for, itself included.
+    """All branches found, number 0 through the first start; `copies[i]`: how many images branch i stands for, itself included.
 
-    `complete`: every branch point was switched at and every branch followed to its end; what failed is in the table.
+    components[i]: the start that branch i is connected to, 0 for the first. `complete`: every branch point was switched at and
+    every branch followed to its end; what failed is in the table.
     """
 
     window: tuple[float, float]
     branches: list[Branch]
     copies: list[int]
+    components: list[int]
     table: list[Special]
     complete: bool
 
@@ -75,19 +77,33 @@ class Diagram:
         low, high = self.window
         if not low <= lam <= high:
             raise ValueError(f"lam must lie in the window of the diagram, {low:g} to {high:g}; it is {lam:g}")
+        return [p for i in range(len(self.branches)) for p in self._on(i, lam)]
+
+    def _on(self, i: int, lam: float) -> list[Point]:
         found: list[Point] = []
-        for branch, copies in zip(self.branches, self.copies, strict=True):
-            for p in branch.at(lam):
-                found += [p] if copies == 1 else [p, *images(p)]
+        for p in self.branches[i].at(lam):
+            found += [p] if self.copies[i] == 1 else [p, *images(p)]
         return found
 
     def count(self, lam: float) -> int:
         """The number of solutions at a load, images among them; where branches meet each is counted."""
         return len(self.at(lam))
 
+    @property
+    def counts(self) -> list[tuple[float, float, int]]:
+        """(from, to, number of solutions) between neighbouring special loads."""
+        low, high = self.window
+        inner = sorted({row.lam for row in self.table if low < row.lam < high})
+        apart = [low]
+        for load in [*inner, high]:
+            if load - apart[-1] > MEETS * (high - low) or load == high:
+                apart.append(load)
+        return [(a, b, self.count((a + b) / 2)) for a, b in pairwise(apart)]
+
     def connected(self, p: Point) -> bool:
-        """True when a solution is one of the diagram's at its load; what is not is a parasite, or detached."""
-        return any(same(p, q, MEETS) for q in self.at(p.lam))
+        """True when a solution is connected to the first start; what is not is detached, or a parasite of the discretisation."""
+        own = (q for i, component in enumerate(self.components) if component == 0 for q in self._on(i, p.lam))
+        return any(same(p, q, MEETS) for q in own)
 
 
 def diagram(
@@ -110,11 +126,7 @@ def diagram(
     >>> d.count(0.2), d.count(1.0), d.count(2.9)
     (1, 3, 5)
     """
-    if not isinstance(lam, (tuple, list)) or len(lam) != 2:
-        raise ValueError(f"lam must be a pair of loads (low, high); it is {lam!r:.60}")
-    low, high = (number("lam", edge) for edge in lam)
-    if not low < high:
-        raise ValueError(f"lam must be a pair of loads (low, high) with low < high; it is {lam!r}")
+    low, high = window_of(lam)
     given = start if isinstance(start, (tuple, list)) and start and isinstance(start[0], Point) else [start]
     points = [p if isinstance(p, Point) else equilibrium(model, low, p) for p in given]
     for p in points:
@@ -122,6 +134,16 @@ def diagram(
             raise ValueError(f"start must lie in the window, {low:g} to {high:g}; its load is {p.lam:g}")
     options = {"step": step, "max_points": whole("max_points", max_points, least=2), "watch": watch}
     return _Explorer((low, high), whole("most", most, least=1), options).run(points)
+
+
+def window_of(lam: Any) -> tuple[float, float]:
+    """A window of loads, checked."""
+    if not isinstance(lam, (tuple, list)) or len(lam) != 2:
+        raise ValueError(f"lam must be a pair of loads (low, high); it is {lam!r:.60}")
+    low, high = (number("lam", edge) for edge in lam)
+    if not low < high:
+        raise ValueError(f"lam must be a pair of loads (low, high) with low < high; it is {lam!r}")
+    return low, high
 
 
 @dataclass
@@ -139,19 +161,21 @@ class _Explorer:
     def __init__(self, window: tuple[float, float], most: int, options: dict[str, Any]) -> None:
         self.window, self.most, self.options = window, most, options
         self.branches: list[Branch] = []
+        self.components: list[int] = []
         self.crossings: list[_Crossing] = []
-        self.complete = True
+        self.complete, self.component = True, 0
 
     def run(self, starts: Sequence[Point]) -> Diagram:
         done = 0
         for p in starts:
             if self._known(p) is None:
+                self.component = len(set(self.components))
                 self._add(self._through(p))
             while done < len(self.crossings):
                 self._switch(self.crossings[done])
                 done += 1
         copies = [1 + sum(1 for _ in orbit(branch)) for branch in self.branches]
-        return Diagram(self.window, self.branches, copies, list(self._table()), self.complete)
+        return Diagram(self.window, self.branches, copies, self.components, list(self._table()), self.complete)
 
     # --- branches -----------------------------------------------------------------------------------------------
 
@@ -180,6 +204,7 @@ class _Explorer:
 
     def _add(self, branch: Branch) -> int:
         self.branches.append(branch)
+        self.components.append(self.component)
         self.complete &= branch.completed and not branch.reason.startswith("max_points")
         return len(self.branches) - 1
 

@@ -29,6 +29,28 @@ def vary(model: Any, name: str, lam: float) -> Any:
     return own(name, lam) if own is not None else Varied(model, name, lam)
 
 
+class Family:
+    """A model at every load and every value of one of its parameters: equations F(u, lam, value) = 0.
+
+    Raises `ValueError` for a name that the model does not have.
+    """
+
+    def __init__(self, model: Any, name: str) -> None:
+        self.name, self._varied = name, vary(model, name, 0.0)
+        self.value = float(self._varied.value)
+
+    def at(self, value: float) -> Any:
+        """The model with this value of the parameter, on the same mesh."""
+        sharing = getattr(self._varied, "sharing", self._varied.at)
+        return sharing(value)
+
+    def d_value(self, u: Array, lam: float, value: float) -> Array:
+        """dF/d(value), shape (n,)."""
+        varied = copy(self._varied)
+        varied.lam = lam
+        return np.asarray(varied.d_lam(u, value))
+
+
 class Varied:
     """A model followed in one of its attributes.
 

@@ -11,6 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
+from rodlab.analysis.diagram import diagram
+from rodlab.analysis.equilibrium import equilibrium
 from rodlab.analysis.newton import Newton, NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.mechanics.enumerate import CLOSE, Root, cover
@@ -63,6 +65,27 @@ class Equilibria:
         (mirror,) = self.strut.symmetries
         places = {_key(p.u): i for i, p in enumerate(self.points)}
         return tuple(places.get(_key(mirror(p.u))) for p in self.points)
+
+    @cached_property
+    def connected(self) -> tuple[bool, ...]:
+        """For each point: is it on a branch that is connected to the unstressed shape? Found by the diagram up to this load.
+
+        Of a straight strut those that are not are parasites of the discretisation [Domokos and Holmes 1993]: the rod has none. Of
+        any other they may also be on a branch that an imperfection cut off. Raises `NoConvergence` where the diagram stays open.
+        """
+        if self.lam == 0:
+            return tuple(np.abs(p.u - self.strut.unstressed()).max() < CLOSE for p in self.points)
+        found = diagram(self.strut, (min(self.lam, 0.0), max(self.lam, 0.0)), equilibrium(self.strut, 0.0))
+        if not found.complete:
+            raise NoConvergence(f"the diagram from 0 to {self.lam:g} could not be completed: {found.table}", ())
+        every, own = np.array([p.u for p in self.points]), np.zeros(len(self.points), dtype=bool)
+        for p in found.at(self.lam):
+            own |= np.abs(every - p.u).max(axis=1) < 10 * CLOSE
+        return tuple(own.tolist())
+
+    def standing(self, i: int) -> str:
+        """How a point stands to the unstressed shape: "connected", "detached", or of a straight strut "parasite"."""
+        return "connected" if self.connected[i] else "parasite" if self.strut.is_straight else "detached"
 
     def symmetry(self, i: int) -> str:
         """The symmetry class of a point: "symmetric", "mirror pair", or "none" where the strut itself has none."""

@@ -16,6 +16,7 @@ from rodlab.lab.curves import pieces
 from rodlab.lab.loads import ORDER, Extrapolated, Load
 from rodlab.lab.routes import Route
 
+FORMATS = (".png", ".pdf", ".svg")
 GREYS = ("0.0", "0.35", "0.6")
 LABELS = {"tip_angle": "tip angle (radians)", "height": "height", "energy": "energy"}
 DASHES = (0, (4, 2.2))
@@ -32,6 +33,15 @@ def png(fig: Figure) -> bytes:
     """The picture as PNG, the same bytes for the same figure."""
     out = io.BytesIO()
     fig.savefig(out, format="png", dpi=160, metadata={"Software": None})
+    return out.getvalue()
+
+
+def drawn(fig: Figure, path: str) -> bytes:
+    """The picture in the format that a file's name asks for."""
+    if path.endswith(".png"):
+        return png(fig)
+    out = io.BytesIO()
+    fig.savefig(out, format=path[-3:], metadata={"Date": None} if path.endswith("svg") else {"CreationDate": None})
     return out.getvalue()
 
 

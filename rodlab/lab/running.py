@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rodlab.analysis.point import Point
 from rodlab.files import write_whole
@@ -12,25 +12,43 @@ from rodlab.lab.branches import Shown
 from rodlab.lab.scene import Scene, run, scene
 from rodlab.lab.store import as_json, framed
 
+if TYPE_CHECKING:
+    from rodlab.lab.asked import Answer
+
 
 def run_scene(name: str, folder: Path | None, watch: Callable[[Point], Any] | None = None) -> tuple[dict[str, Any], str, bool]:
     """(answer for JSON, text for a person, whether every branch was followed to its end)."""
     start, chosen = time.perf_counter(), scene(name)
     shown = list(run(chosen, watch))
     said = [{"branch": s.name, "seconds": s.seconds, **of_branch(s.branch)} for s in shown]
+    answers = _asked(chosen)
     about = {"scene": chosen.name, "title": chosen.title, "source": chosen.source, "model": dict(chosen.model)}
-    answer = framed("run", time.perf_counter() - start, {**about, "branches": said})
-    answer["files"] = [] if folder is None else [str(path) for path in _written(chosen, shown, answer, folder)]
+    answer = framed("run", time.perf_counter() - start, {**about, "branches": said} | {k: a.said for k, a in answers.items()})
+    answer["files"] = [] if folder is None else [str(path) for path in _written(chosen, shown, answers, answer, folder)]
     title = f"{chosen.title} [{chosen.source}]" if chosen.source else chosen.title
-    parts = [part for part in (chosen.about, branches_table(title, shown)) if part]
+    parts = [chosen.about] if chosen.about else []
+    parts += [branches_table(title, shown)] if shown else [title]
+    parts += [a.text for a in answers.values()]
     parts.append(f"in {answer['seconds']:.2f} s" + "".join(f"\n  {path}" for path in answer["files"]))
-    return answer, "\n\n".join(parts), all(s.branch.completed for s in shown)
+    return answer, "\n\n".join(parts), all([*(s.branch.completed for s in shown), *(a.complete for a in answers.values())])
 
 
-def _written(chosen: Scene, shown: list[Shown], answer: dict[str, Any], folder: Path) -> list[Path]:
+def _asked(chosen: Scene) -> "dict[str, Answer]":
+    if not chosen.asks:
+        return {}
+    from rodlab.lab.asked import asked
+
+    return asked(chosen)
+
+
+def _written(chosen: Scene, shown: list[Shown], answers: "dict[str, Answer]", answer: dict[str, Any], folder: Path) -> list[Path]:
     files = [Path(s.branch.save(folder / f"branch-{i}.json")) for i, s in enumerate(shown, start=1)]
     files.append(write_whole(folder / "scene.json", as_json(answer) + "\n"))
-    if chosen.draw:
+    if chosen.draw and answers:
+        from rodlab.lab.picture import png
+
+        files += [write_whole(folder / f"{name}.png", png(a.draw())) for name, a in answers.items()]
+    if chosen.draw and shown:
         from rodlab.lab.picture import branches_picture, png
 
         picture = branches_picture(shown, str(chosen.draw.get("y", "tip_angle")), _label(chosen))

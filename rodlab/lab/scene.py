@@ -7,7 +7,11 @@
 
 [model] is a recipe (`rodlab.mechanics.recipe`). [[follow]] takes name, from, guess (an expression in s), to, step, events,
 within, max_points, and switch: from how many branch points the half-branches are followed as well. Without [draw]
-nothing is drawn. Scenes of the house are called by name, your own by path.
+nothing is drawn. Scenes of the house are called by name, your own by path. In place of [[follow]] one question about all of it:
+
+    [diagram]       from, to, detached            every branch in a window of loads
+    [equilibria]    lam, n                        every equilibrium at a load, for several n, on the standard map
+    [breaking]      parameter, most, show         a pitchfork and its imperfection
 """
 
 import time
@@ -32,6 +36,7 @@ from rodlab.numerics.arrays import number, whole
 
 HOUSE = Path(__file__).with_name("scenes")
 EVENTS = {"fold": fold, "branch point": branch_point}
+ASKS = {"diagram": ("from", "to", "detached"), "equilibria": ("lam", "n"), "breaking": ("parameter", "most", "show")}
 OPTIONS = ("name", "from", "to", "guess", "step", "events", "within", "max_points", "switch")
 
 
@@ -44,8 +49,9 @@ class Scene:
     source: str
     about: str
     model: Mapping[str, Any]
-    follow: tuple[Mapping[str, Any], ...]
+    follow: tuple[Mapping[str, Any], ...] = ()
     draw: Mapping[str, Any] = field(default_factory=dict)
+    asks: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
 
 def scenes() -> list[Scene]:
@@ -76,21 +82,25 @@ def read_scene(path: Path) -> Scene:
         raise ValueError(f"{path} cannot be read: {error.strerror or error}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ValueError(f"{path} is not TOML: {error}") from None
-    unknown = sorted(set(given) - {"title", "source", "about", "model", "follow", "draw"})
+    known = ("title", "source", "about", "model", "follow", "draw", *ASKS)
+    unknown = sorted(set(given) - set(known))
     if unknown:
-        raise ValueError(f"{path}: a scene is made of title, source, about, model, follow, draw; {unknown[0]} is none of these")
+        raise ValueError(f"{path}: a scene is made of {', '.join(known)}; {unknown[0]} is none of these")
     if not isinstance(given.get("model"), dict):
         raise ValueError(f"{path}: a scene needs a [model] table")
-    runs = given.get("follow")
-    if not isinstance(runs, list) or not runs or not all(isinstance(run, dict) for run in runs):
-        raise ValueError(f"{path}: a scene needs at least one [[follow]] table")
+    asks = {name: _asked(path, name, given[name]) for name in ASKS if name in given}
+    runs = given.get("follow", [] if asks else None)
+    if not isinstance(runs, list) or not (runs or asks) or not all(isinstance(run, dict) for run in runs):
+        raise ValueError(f"{path}: a scene needs at least one [[follow]] table, or one of [{'], ['.join(ASKS)}]")
     for run in runs:
         wrong = sorted(set(run) - set(OPTIONS))
         if wrong or "to" not in run:
             said = f"{wrong[0]} is none of these" if wrong else "to is missing"
             raise ValueError(f"{path}: [[follow]] takes {', '.join(OPTIONS)}; {said}")
     texts = {name: str(given.get(name, "")) for name in ("title", "source", "about")}
-    return Scene(path.stem, **texts, model=given["model"], follow=tuple(runs), draw=_drawn(path, given.get("draw", {})))
+    return Scene(
+        path.stem, **texts, model=given["model"], follow=tuple(runs), draw=_drawn(path, given.get("draw", {})), asks=asks
+    )
 
 
 def run(scene: Scene, watch: Callable[[Point], Any] | None = None) -> Iterator[Shown]:
@@ -140,6 +150,13 @@ def _guess(options: Mapping[str, Any]) -> Any:
     if not isinstance(guess, str):
         return np.asarray(guess, dtype=np.float64)
     return Expression(guess)
+
+
+def _asked(path: Path, name: str, options: Any) -> Mapping[str, Any]:
+    wrong = sorted(set(options) - set(ASKS[name])) if isinstance(options, dict) else [options]
+    if wrong:
+        raise ValueError(f"{path}: [{name}] takes {', '.join(ASKS[name])}; {wrong[0]} is none of these")
+    return dict(options)
 
 
 def _drawn(path: Path, draw: Any) -> Mapping[str, Any]:
