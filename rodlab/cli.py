@@ -171,6 +171,10 @@ def equilibria(chosen: argparse.Namespace) -> int:
     asked = {**_model(chosen), "u_hat": _number_or_text(chosen.u_hat)}
     strut: Any = build(asked)
     path = _picture_path(chosen.out)
+    if path is not None:
+        from rodlab.lab.standard_map import parameter
+
+        parameter(strut, chosen.lam)
     found = all_equilibria(strut, chosen.lam, certify=chosen.certify is not False, engine=chosen.engine)
     written = []
     if path is not None:

@@ -240,7 +240,11 @@ def test_every_scene_of_the_house_runs(name, tmp_path, capsys):
     assert all(b["completed"] for b in answer["branches"])
     assert {path.name for path in tmp_path.iterdir()} == {path.split("/")[-1] for path in answer["files"]}
     assert json.loads((tmp_path / "scene.json").read_text())["scene"] == name
-    assert (tmp_path / "diagram.png").exists() == (name != "many-loads")
+    assert any(path.suffix == ".png" for path in tmp_path.iterdir()) == (name != "many-loads")
+    asked = set(answer) & {"diagram", "equilibria", "breaking"}
+    assert bool(answer["branches"]) != bool(asked)
+    if asked:
+        return
     found = [(e["kind"], e["lam"]) for e in answer["branches"][0]["events"] if e["kind"] != "end"]
     for (kind, lam), (wanted, exact, within) in zip(found, TRUTHS[name], strict=True) if name in TRUTHS else ():
         assert kind == wanted
@@ -278,6 +282,13 @@ def test_a_scene_of_ones_own(tmp_path, capsys):
         ("[model]\nn = 3\n[[follow]]\nto = 1\n[draw]\nx = 'lam'", "[draw] takes y"),
         ("[model]\nn = 3\n[[follow]]\nto = 1\n[colour]\nx = 1", "colour is none of these"),
         ("model = 3\n[[follow]]\nto = 1", "a scene needs a [model] table"),
+        ("[model]\nn = 3\n[diagram]\nfrom = 1", "to must be a finite number"),
+        ("[model]\nn = 3\n[diagram]\nto = 1\nup = 2", "[diagram] takes from, to, detached; up is none of these"),
+        ("diagram = 3\n[model]\nn = 3", "[diagram] takes from, to, detached; 3 is none of these"),
+        ("[model]\nn = 3\n[equilibria]\nlam = 1\nn = 3", "n must be a list"),
+        ("[model]\nmodel = 'rod'\n[equilibria]\nlam = 1", "[equilibria] asks of a strut"),
+        ("[model]\nn = 3\nu_hat = 1.0\n[breaking]\n", "[breaking] asks of a straight strut"),
+        ("[model]\nn = 3\n[breaking]\nparameter = 'q'", "name must be a parameter of the strut"),
     ],
 )
 def test_a_wrong_scene_gets_a_sentence(text, says, tmp_path, capsys):
@@ -290,9 +301,88 @@ def test_a_wrong_scene_gets_a_sentence(text, says, tmp_path, capsys):
 
 def test_a_scene_that_is_not_there(capsys):
     assert cli.main(["run", "nowhere"]) == 2
-    assert "scene must be one of bend, imperfect" in capsys.readouterr().err
+    assert "scene must be one of bend, connected" in capsys.readouterr().err
     assert cli.main(["run", "nowhere.toml"]) == 2
     assert "cannot be read" in capsys.readouterr().err
+
+
+# --- diagrams and equilibria ------------------------------------------------------------------------------------------
+
+
+def test_equilibria_as_json(capsys):
+    assert cli.main(["equilibria", "-n", "5", "--lam", "60", "--certify", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["certified"] is True
+    assert answer["index_sum"] == 1
+    assert answer["count"] == len(answer["equilibria"]) == 19
+    strut = rodlab.Strut(n=5)
+    for one in answer["equilibria"]:
+        assert np.abs(strut.gradient(one["phi"], 60.0)).max() < 1e-12
+        assert strut.hessian(one["phi"], 60.0).index == one["index"]
+        assert strut.energy(one["phi"], 60.0) == one["energy"]
+    assert [one["standing"] for one in answer["equilibria"]].count("parasite") == 12
+
+
+def test_equilibria_for_a_person(capsys, tmp_path):
+    assert cli.main(["equilibria", "--lam", "60", "--out", str(tmp_path / "map.svg")]) == 0
+    out = capsys.readouterr().out
+    assert "19 in all: 8 of index 0" in out
+    assert "12 are not: parasites of the discretisation" in out
+    assert "certified: one turn" in out
+    assert (tmp_path / "map.svg").read_text().startswith("<?xml")
+    assert cli.main(["equilibria", "-n", "8", "--lam", "200", "--no-certify", "--no-connected"]) == 0
+    out = capsys.readouterr().out
+    assert "not certified: nothing was proved" in out
+    assert "(the first 40 of" in out
+
+
+def test_certify_is_a_check_that_may_fail(capsys):
+    assert cli.main(["equilibria", "-n", "10", "--lam", "100"]) == 0
+    assert "not certified: 1 degenerate" in capsys.readouterr().out
+    assert cli.main(["equilibria", "-n", "10", "--lam", "100", "--certify", "--json"]) == 1
+    seen = capsys.readouterr()
+    assert json.loads(seen.out)["certified"] is False
+    assert "not certified" in seen.err
+
+
+def test_a_diagram_as_json(capsys, tmp_path):
+    out = tmp_path / "d.png"
+    assert cli.main(["diagram", "-n", "20", "--to", "70", "--json", "--out", str(out)]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["complete"] is True
+    assert [b["images"] for b in answer["branches"]] == [1, 2, 2, 2]
+    assert [row["solutions"] for row in answer["counts"]] == [1, 3, 5, 7]
+    kinds = [row["kind"] for row in answer["table"]]
+    assert kinds.count("supercritical pitchfork") == 3
+    assert kinds.count("end") == 4
+    assert out.read_bytes()[:4] == b"\x89PNG"
+
+
+def test_a_diagram_for_a_person(capsys):
+    assert cli.main(["diagram", "-n", "5", "--to", "50", "--detached"]) == 0
+    out = capsys.readouterr().out
+    assert "supercritical pitchfork" in out
+    assert "not connected to the start: the branches 4, 5, 6" in out
+    assert "mirror images, counted and not listed" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["equilibria", "--lam", "nan"], "lam must be a finite number"),
+        (["equilibria", "-n", "0", "--lam", "1"], "n must be a whole number"),
+        (["equilibria", "--lam", "1", "--out", "map.gif"], "out must end in .png, .pdf, .svg"),
+        (["equilibria", "--lam", "1", "--u-hat", "0.1", "--out", "map.png"], "standard map"),
+        (["diagram", "--to", "-1"], "low < high"),
+        (["diagram", "--to", "3", "--out", "d"], "out must end in"),
+        (["diagram", "--to", "3", "--K", "import os"], "K"),
+    ],
+)
+def test_wrong_questions_get_a_sentence(arguments, says, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert cli.main(arguments) == 2
+    assert says in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
 
 
 def test_follow_never_imports_sympy_or_matplotlib():

@@ -10,6 +10,7 @@ known root s = -(u - u_i) and tau = 1 / (1 - p) = -1. Every matrix is solved as 
 
 import math
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from itertools import chain
 from typing import Any
 
@@ -18,7 +19,7 @@ import numpy as np
 from rodlab.analysis.continuation import carried
 from rodlab.analysis.curve import Curve
 from rodlab.analysis.equations import Equations, started
-from rodlab.analysis.equilibrium import on_its_mesh
+from rodlab.analysis.equilibrium import equilibrium, on_its_mesh
 from rodlab.analysis.newton import Newton, NewtonStep, NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.numerics.arrays import EPS, Array, number, vector, whole
@@ -26,9 +27,8 @@ from rodlab.numerics.nullspace import near_null
 
 LONGEST = 0.5  # step, as a part of the size of u, at least 1
 ASIDE, MODES = 1.0, 4  # how far beside a solution a run starts, on either side along so many modes nearest null
-NEAR = 1e-2  # relative step below which Newton's own method, nothing divided out, takes over
-MET = 1e-6  # relative distance from a known solution at which M is taken for singular
-MOVED = 0.1  # relative distance by which Newton's method may move what is said to be known
+NEAR, MET = 1e-2, 1e-6  # relative: steps below which Newton's own method takes over; distances at which M is singular
+MOVED = 0.1  # by which Newton's method may move what is said to be known
 TRIPLE = 10 * EPS ** (1 / 3)  # how far rounding moves a triple root
 
 
@@ -40,8 +40,8 @@ def deflation(
     known: points at this load, or arrays. guesses: as of `equilibrium`. A run begins at each guess, then beside it on either
     side along the few modes nearest null, then so beside every solution, known or found; it ends after `limit` linear solves.
     What it finds is solved by Newton's method, nothing divided out, and is further from all others than its error and theirs.
-    `newton` of a point lists the solves of the run that found it; runs that found nothing are in none. Where a mesh adapts
-    all runs are on the finest given, and what they find is then adapted.
+    `newton` of a point lists the solves of the run that found it; runs that found nothing are in none. Where a mesh adapts all
+    runs are on one, the finest of those of known points and guesses; what they find is then adapted.
     Raises `ValueError` for wrong arguments, such as a known solution that is none.
 
     >>> class Cubic:
@@ -53,141 +53,98 @@ def deflation(
     [1.0, -1.0]
     """
     lam, most, limit = number("lam", lam), whole("most", most, least=1), whole("limit", limit, least=1)
-    for name, given in (("known", known), ("guesses", guesses)):
-        if not isinstance(given, (list, tuple)):
-            raise ValueError(f"{name} must be a list; it is {given!r:.60}")
-    runs = Runs(_finest(model, known), lam, limit)
-    runs.guesses = [_first(model, runs.on, guess) for guess in guesses]
-    for i, given in enumerate(known):
-        runs.known.append(_settled(model, runs, i, given))
-    found: list[Point] = []
-    others = list(runs.known)
-    for u in runs.starts():
+    if not (isinstance(known, (list, tuple)) and isinstance(guesses, (list, tuple))):
+        raise ValueError(f"known and guesses must be lists; they are {known!r:.60} and {guesses!r:.60}")
+    first = [started(model, guess) for guess in guesses]
+    size = first[0].size if first else None
+    points = [p if isinstance(p, Point) else Point(model, lam, vector(f"known[{i}]", p, size)) for i, p in enumerate(known)]
+    on = _finest(model, lam, points, guesses)
+    runs = Runs(on, lam, limit, [_settled(on, lam, p, f"known[{i}]") for i, p in enumerate(points)])
+    found, others = list[Point](), [on_its_mesh(p) for p in runs.known]
+    for u in runs.starts([carried(model, on, np.append(u, lam))[:-1] for u in first]):
         while len(found) < most and (p := runs.run(u)) is not None:
             runs.known.append(p)
-            try:
+            with suppress(NoConvergence):  # raised for a solution of this mesh alone
                 p = on_its_mesh(p)
-            except NoConvergence:  # a solution of this mesh alone
-                continue
-            if all(_apart(p, q) for q in (*others, *found)):
-                found.append(p)
-        if len(found) == most:
-            break
+                found += [p] if all(_apart(p, q) for q in (*others, *found)) else []
     return found
 
 
 class Runs:
     """Newton's method on M F from one start after the other, for the equations on one mesh; `known` grows."""
 
-    def __init__(self, on: Any, lam: float, limit: int) -> None:
-        self.on, self.lam, self.limit, self.newton = on, lam, limit, Newton.at(on, lam)
-        self.guesses: list[Array] = []
-        self.known: list[Point] = []
+    def __init__(self, on: Any, lam: float, limit: int, known: list[Point]) -> None:
+        self.on, self.lam, self.limit, self.known, self.newton = on, lam, limit, known, Newton.at(on, lam)
 
-    def starts(self) -> Iterator[Array]:
+    def starts(self, guesses: list[Array]) -> Iterator[Array]:
         """The guesses, then places beside them and beside all that is known by then."""
-        yield from self.guesses
+        yield from guesses
         curve = Curve(self.on)
-        for u in chain(self.guesses, (p.u for p in self.known)):
+        for u in chain(guesses, (p.u for p in self.known)):
             if self.newton._residual(u) is not None:
                 y = np.append(u, self.lam)
                 for v in near_null(curve.jacobian(y), min(MODES, u.size), symmetric=curve.symmetric(y)).right.T:
                     yield from (u + side * v / self.newton.norm(v) for side in (ASIDE, -ASIDE))
 
+    @np.errstate(all="ignore")
     def run(self, u: Array) -> Point | None:
         """A solution that is not yet known, or None."""
         newton, history, near = self.newton, list[NewtonStep](), NEAR
         while len(history) < self.limit:
             F = newton._residual(u)
-            s = None if F is None else newton._step(u, F)
-            slope = math.inf if s is None else self._slope(u, s)
-            if F is None or s is None or not math.isfinite(slope):
+            if F is None or (s := newton._step(u, F)) is None or not math.isfinite(slope := self._slope(u, s)):
                 return None
             size, scale = newton.norm(s), max(1.0, newton.norm(u))
             tau = math.copysign(1 / max(abs(slope), size / (LONGEST * scale)), slope)
             history.append(NewtonStep(size, newton.norm(F), tau))
             if size <= near * scale and abs(tau - 1) < 0.5:
-                p = self._polished(u, history)
-                if p is not None:
+                p, near = _solved(self.on, self.lam, u, history), near / 100
+                if p is not None and not any(newton.norm(p.u - q.u) <= MET * scale + p.remaining for q in self.known):
                     return p
-                near /= 100
             u = u + tau * s
         return None
 
     def _slope(self, u: Array, s: Array) -> float:
         """1 - m.s / M = 1 / tau; infinite at a known solution."""
-        total, size = 1.0, max(1.0, self.newton.norm(u))
-        with np.errstate(all="ignore"):
-            for p in self.known:
-                away = u - p.u
-                r = float(self.on.inner(away, away))
-                if not r > (MET * size) ** 2:
-                    return math.inf
-                total += 2 * float(self.on.inner(away, s)) / (r * (1 + r))
-        return total
-
-    def _polished(self, u: Array, history: list[NewtonStep]) -> Point | None:
-        try:
-            root = self.newton.solve(u)
-        except NoConvergence as failure:
-            history += failure.history
-            return None
-        history += root.history
-        p = Point(self.on, self.lam, root.u, tuple(history), root.remaining)
-        return p if all(_apart(p, q) for q in self.known) else None
+        away, size = [u - p.u for p in self.known], max(1.0, self.newton.norm(u))
+        square = [float(self.on.inner(d, d)) for d in away]
+        if not min(square, default=1.0) > (MET * size) ** 2:
+            return math.inf
+        return 1.0 + sum(2 * float(self.on.inner(d, s)) / (r * (1 + r)) for d, r in zip(away, square, strict=True))
 
 
-# --- from mesh to mesh -------------------------------------------------------------------------------------------
+def _finest(model: Any, lam: float, known: list[Point], guesses: Sequence[Any]) -> Any:
+    """The equations on the mesh of most points, of known points and of solutions near the guesses."""
+    on = [model, *(p.equations for p in known if type(p.equations) is type(model))]
+    for guess in guesses if hasattr(model, "adapted") else ():
+        with suppress(NoConvergence):
+            on.append(equilibrium(model, lam, guess).equations)
+    return max(on, key=lambda equations: equations.mesh.size) if hasattr(model, "adapted") else model
 
 
-def _finest(model: Any, known: Sequence[Any]) -> Any:
-    """The equations on the mesh of most points, of the model and of the known points."""
-    meshes = [p.equations for p in known if isinstance(p, Point) and type(p.equations) is type(model)]
-    return max([model, *meshes], key=lambda on: on.mesh.size) if hasattr(model, "moved") else model
+def _settled(on: Any, lam: float, p: Point, name: str) -> Point:
+    """A known solution on the mesh of the runs. Raises `ValueError` for what is none."""
+    same = type(p.equations) is type(on) and p.lam == lam
+    u = carried(p.equations, on, np.append(p.u, lam))[:-1] if same else p.u
+    root = _solved(on, lam, u, []) if same else None
+    if root is None or float(np.abs(root.u - u).max()) > MOVED * max(1.0, float(np.abs(u).max())):
+        raise ValueError(f"{name} must be a solution of this {type(on).__name__} at lam = {lam:g}; it is {p!r:.80}")
+    return root
 
 
-def _first(model: Any, on: Any, guess: Any) -> Array:
-    read = on if guess is None or callable(guess) else model
-    return _moved(read, on, started(read, guess))
-
-
-def _moved(source: Any, on: Any, u: Array) -> Array:
-    return carried(source, on, np.append(u, 0.0))[:-1]
-
-
-def _settled(model: Any, runs: Runs, i: int, given: Any) -> Point:
-    """A known solution, solved on the mesh of the runs. Raises `ValueError` for what is none."""
-    point, known = isinstance(given, Point), f"known must hold solutions of this {type(model).__name__} at lam = {runs.lam:g}"
-    if point and (type(given.equations) is not type(model) or given.lam != runs.lam):
-        raise ValueError(f"{known}; entry {i} is of a {type(given.equations).__name__} at lam = {given.lam:g}")
-    if point and given.equations is runs.on:
-        return Point(runs.on, runs.lam, given.u, given.newton, given.remaining)
-    u = given.u if point else started(model, vector(f"known[{i}]", given))
-    u = _moved(given.equations if point else model, runs.on, u)
-    like = next((v.size for v in (*runs.guesses, *(p.u for p in runs.known))), None)
-    try:
-        root = runs.newton.solve(vector(f"known[{i}]", u, like))
-        moved = runs.newton.norm(root.u - u) / max(1.0, runs.newton.norm(u))
-    except NoConvergence:
-        moved = math.inf
-    if moved > MOVED:
-        raise ValueError(f"{known}; Newton's method moves entry {i} by {moved:.2g}")
-    return Point(runs.on, runs.lam, root.u, root.history, root.remaining)
+def _solved(on: Any, lam: float, u: Array, history: list[NewtonStep]) -> Point | None:
+    """What Newton's own method reaches from u; its solves are added to the history."""
+    newton, root = Newton.at(on, lam), None
+    with suppress(NoConvergence):
+        root = newton.solve(u)
+    history += newton.history
+    return None if root is None else Point(on, lam, root.u, tuple(history), root.remaining)
 
 
 def _apart(p: Point, q: Point) -> bool:
     """True when two solutions differ by more than their errors, on the finer of their meshes."""
     p, q = sorted((p, q), key=lambda point: point.u.size)
-    u = p.u
-    if p.equations is not q.equations and hasattr(q.equations, "moved"):
-        try:
-            u = Newton.at(q.equations, q.lam).solve(_moved(p.equations, q.equations, u)).u
-        except NoConvergence:
-            return True
-    return float(np.abs(u - q.u).max()) > _blur(p) + _blur(q)
-
-
-def _blur(p: Point) -> float:
-    """How far from the exact solution a point may be."""
-    error = p.error if math.isfinite(p.error) else TRIPLE * max(1.0, float(np.abs(p.u).max()))
-    return 4 * (p.remaining_angle + error)
+    errors = [x.error if math.isfinite(x.error) else TRIPLE * max(1.0, float(np.abs(x.u).max())) for x in (p, q)]
+    u = carried(p.equations, q.equations, np.append(p.u, p.lam))[:-1]
+    same = p if p.equations is q.equations else _solved(q.equations, q.lam, u, [])
+    return same is None or float(np.abs(same.u - q.u).max()) > 4 * (p.remaining_angle + q.remaining_angle + sum(errors))

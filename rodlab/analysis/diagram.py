@@ -20,7 +20,7 @@ from rodlab.analysis.equations import Equations
 from rodlab.analysis.equilibrium import equilibrium
 from rodlab.analysis.events import Event
 from rodlab.analysis.follow import Branch, follow
-from rodlab.analysis.kinds import kind_of, turns
+from rodlab.analysis.kinds import kind_of
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.places import images, lies_on, orbit, same
 from rodlab.analysis.point import Point
@@ -102,8 +102,11 @@ class Diagram:
 
     def connected(self, p: Point) -> bool:
         """True when a solution is connected to the first start; what is not is detached, or a parasite of the discretisation."""
-        own = (q for i, component in enumerate(self.components) if component == 0 for q in self._on(i, p.lam))
-        return any(same(p, q, MEETS) for q in own)
+        return any(same(p, q, MEETS) for q in self.connected_at(p.lam))
+
+    def connected_at(self, lam: float) -> list[Point]:
+        """The solutions at a load that are connected to the first start."""
+        return [p for i, component in enumerate(self.components) if component == 0 for p in self._on(i, lam)]
 
 
 def diagram(
@@ -246,13 +249,12 @@ class _Explorer:
     def _table(self) -> Iterator[Special]:
         for i, branch in enumerate(self.branches):
             for event, index in zip(branch.events, pairwise([*branch.indices(), None]), strict=True):
-                yield self._row(i, branch, event, index)
+                yield self._row(i, event, index)
 
-    def _row(self, i: int, branch: Branch, event: Event, index: tuple[int | None, int | None]) -> Special:
+    def _row(self, i: int, event: Event, index: tuple[int | None, int | None]) -> Special:
         about = (event.lam, event.error, i, index, event.multiplicity)
         if event.kind != "branch point":
-            kind = event.kind if event.kind == "end" or turns(branch, event) else "cusp"
-            return Special(kind, *about, reason=event.reason, event=event)
+            return Special(event.kind, *about, reason=event.reason, event=event)
         crossing = next(c for c in self.crossings if c.branch == i and c.event.null is event.null)
         kind = kind_of(event, crossing.starts, index)
         return Special(kind, *about, tuple(sorted(crossing.leaving)), event.reason or crossing.reason, event)

@@ -1,6 +1,7 @@
 """What happens along a branch: folds, branch points, and zeros of any function of a point, each located to full precision.
 
     fold           the load turns back: J v = 0 with F_lam not in the range of J
+    cusp           the same where the load goes on: two folds in one place, reported with the folds
     branch point   J V = 0 with F_lam in the range of J: other branches leave, one or more for each null vector
     of your own    lambda p: p.tip_angle - 1.0
 
@@ -30,7 +31,7 @@ SAMPLES = 16  # of the cubic between two points, for several zeros in one step
 class Event:
     """Something at a point of a branch. `error` bounds that of its load as far as rounding and the location can be known.
 
-    kind: "fold", "branch point", "end", or the name of your function. multiplicity: eigenvalues that are zero there within
+    kind: "fold", "branch point", "cusp", "end", or the name of your function. multiplicity: eigenvalues that are zero there within
     `error` (of a fold 1). null: the null vectors, shape (n, multiplicity). reason: why a branch ended, or what did not
     converge. where: how far along its branch, counted in points.
     """
@@ -70,7 +71,7 @@ class SingularPoints:
     """Folds and branch points of a step, told apart by F_lam, each located once; those of the kinds asked for."""
 
     def __init__(self, kinds: set[str]) -> None:
-        self.kinds = kinds
+        self.kinds = kinds | {"cusp"} if "fold" in kinds else kinds
         self.kind = " or ".join(sorted(kinds))
 
     def find(self, step: Step, locator: Locator) -> Iterator[Event]:
@@ -155,7 +156,9 @@ def _singular(window: Window, locator: Locator, step: Step) -> Iterator[Event]:
         p = crossing.multiplicity
         turning = outside(curve, crossing)
         reason = "" if crossing.converged else f"{p} eigenvalues cross zero near here; they could not be told apart"
-        if turning and p == 1 and crossing.converged:
+        if turning and crossing.touches:
+            yield _event("cusp", crossing.y, crossing.error, step, crossing.fence, crossing, 1, reason)
+        elif turning and p == 1 and crossing.converged:
             yield _exact_fold(crossing, locator, step)
         elif turning:
             yield _event("fold", crossing.y, crossing.error, step, crossing.fence, crossing, 1, reason)

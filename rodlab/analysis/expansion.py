@@ -10,19 +10,20 @@ c_2 its direction. In a measure, the tip angle say, the same with eps its change
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial.chebyshev import cheb2poly, chebfit
+from numpy.polynomial.chebyshev import cheb2poly, chebvander
 from numpy.polynomial.polynomial import polyval
 
 from rodlab.analysis.curve import Curve
 from rodlab.analysis.events import Event
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
-from rodlab.analysis.switching import switch
+from rodlab.analysis.switching import FIRST, switch
 from rodlab.numerics.arrays import EPS, Array, whole
 
 NODES = 12  # on each side
 REACH = 4.0  # farthest eps, over that of the start
-DEGREE = 14
+NEARER = 1.7
+DEGREE = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,9 +79,13 @@ def expansion(event: Event, order: int = 4, *, measure: str | None = None, start
     assert event.null is not None
     v = np.append(event.null[:, 0], 0.0)
     side = _Sides(curve, y, v / curve.norm(v), [np.append(start.u, start.lam) for start in starts])
-    fine, coarse = (_fitted(*side.solved(reach), curve, measure, order) for reach in _reaches(side))
-    noise = (100 * EPS * max(1.0, abs(event.lam)) + event.error) / fine[2] ** np.arange(order + 1)
-    return Expansion(fine[0], np.abs(fine[0] - coarse[0]) + noise, fine[1], measure or "eps")
+    far, middle, near = (_fitted(*side.solved(reach), curve, measure, order) for reach in _reaches(side))
+    errors = np.array([2 * np.abs(a[0] - b[0]) + a[2] for a, b in ((far, middle), (middle, near))])
+    best = errors.argmin(axis=0)  # truncation asks for near solutions, rounding for far ones: each coefficient has its own best
+    error = errors.min(axis=0)
+    error[0] += event.error
+    u = np.where(best[:, None] == 0, far[1], middle[1])
+    return Expansion(np.where(best == 0, far[0], middle[0]), error, u, measure or "eps")
 
 
 class _Sides:
@@ -108,8 +113,8 @@ class _Sides:
         return self.known[eps]
 
 
-def _reaches(side: _Sides) -> tuple[float, float]:
-    """The farthest eps that can be had, and a part of it."""
+def _reaches(side: _Sides) -> tuple[float, ...]:
+    """The farthest eps that can be had, and parts of it."""
     reach = REACH * side.start
     while True:
         try:
@@ -119,19 +124,22 @@ def _reaches(side: _Sides) -> tuple[float, float]:
             if reach < side.start:
                 raise
         else:
-            return reach, reach / 1.7
+            return reach, reach / NEARER, reach / NEARER**2
 
 
-def _fitted(eps: Array, solutions: Array, curve: Curve, measure: str | None, order: int) -> tuple[Array, Array, float]:
-    """Coefficients of load and unknowns, and the half-width of the fit."""
+def _fitted(eps: Array, solutions: Array, curve: Curve, measure: str | None, order: int) -> tuple[Array, Array, Array]:
+    """Coefficients of load and unknowns, and what rounding of the solutions may do to those of the load."""
+    zero = int(np.flatnonzero(eps == 0)[0])
+    near = np.abs(eps) + np.where(
+        eps == 0, np.inf, 0.0
+    )  # across the branch: next to the branch point solutions are known less well
+    noise = 8 * EPS * (1 + abs(float(solutions[zero, -1]))) * (1 + FIRST / near)
     if measure is not None:
         values = [Point(curve.equations, float(y[-1]), y[:-1]).measure(measure) for y in solutions]
-        eps = np.array(values) - values[int(np.flatnonzero(eps == 0)[0])]
+        eps = np.array(values) - values[zero]
     width = float(np.abs(eps).max())
-    degree = min(DEGREE, eps.size // 2)
-    series = chebfit(eps / width, solutions, degree)
-    powers = np.array(
-        [cheb2poly(np.eye(degree + 1)[k])[: order + 1].tolist() + [0.0] * max(0, order - k) for k in range(degree + 1)]
-    )
-    coefficients = (powers.T @ series) / (width ** np.arange(order + 1))[:, None]
-    return coefficients[:, -1], coefficients[:, :-1], width
+    vander = chebvander(eps / width, DEGREE)
+    monomials = np.array([np.pad(cheb2poly(unit), (0, DEGREE))[: order + 1] for unit in np.eye(DEGREE + 1)])
+    fit = (monomials / width ** np.arange(order + 1)).T @ np.linalg.pinv(vander)
+    coefficients = fit @ solutions
+    return coefficients[:, -1], coefficients[:, :-1], np.abs(fit) @ noise

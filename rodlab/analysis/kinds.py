@@ -1,17 +1,15 @@
-"""The kind of a branch point or fold, by its name in the field [Crandall and Rabinowitz 1971; Golubitsky and Schaeffer 1985].
+"""The kind of a branch point, by its name in the field [Crandall and Rabinowitz 1971; Golubitsky and Schaeffer 1985].
 
     c_1 != 0                   transcritical
     c_1 = 0, c_2 != 0          pitchfork: supercritical where the other branch lies on the side on which the followed one has lost
                                stability (the higher index), subcritical on the other; without an index by the sign of c_2
     neither is certain         branch point
-    the load does not turn     cusp (a hysteresis point), else fold
 
 c_1, c_2: Koiter's coefficients of the load along the other branch.
 """
 
 from rodlab.analysis.events import Event
 from rodlab.analysis.expansion import Expansion, expansion
-from rodlab.analysis.follow import Branch
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
 
@@ -29,14 +27,6 @@ def kind_of(event: Event, starts: list[Point], index: tuple[int | None, int | No
     if _certain(series, 1):
         return "transcritical"
     return f"{_direction(event, series, index)} pitchfork" if _certain(series, 2) else "branch point"
-
-
-def turns(branch: Branch, event: Event) -> bool:
-    """False at a cusp: a fold at which the load goes on."""
-    i = min(int(event.where), len(branch.points) - 2)
-    alone = sum(e.kind == "fold" and i <= e.where < i + 1 for e in branch.events) == 1
-    a, b = (branch.points[k].tangent for k in (i, i + 1))
-    return not (alone and a is not None and b is not None and a[-1] * b[-1] > 0)
 
 
 def _certain(series: Expansion, k: int) -> bool:

@@ -113,7 +113,7 @@ class Stops:
         self.equations = p.equations
         setting_out = float(walk.here.tangent[-1]) * (ends[0] - p.lam) > 0
         self.loads = {end: f"lam = {end:g} reached" for end in ends}
-        if setting_out:
+        if setting_out and len(ends) == 1:
             self.loads.setdefault(p.lam, f"back at lam = {p.lam:g}")
         self.steps = 0
 

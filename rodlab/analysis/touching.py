@@ -2,7 +2,8 @@
 
 Next to it the eigenvalue is a parabola, mu = c sigma^2. On a side branch the load turns in the same place; where it does
 not, two branches cross and the eigenvalue turns. Either gives the place; that it *is* zero there, to rounding, and that
-F_lam lies in the range of J, makes it a branch point and no near miss.
+F_lam lies in the range of J, makes it a branch point and no near miss. With F_lam outside of it and a load that goes on it
+is a cusp: two folds that have just met, or will, as another parameter changes.
 """
 
 from collections.abc import Callable
@@ -24,7 +25,8 @@ ZERO = 1e-3  # an eigenvalue at the touching point over that at the fence
 def touching(locator: Locator, left: Place, right: Place) -> Crossing | None:
     """The touching zero between two places of one index, or None."""
     segment = locator.segment(left, right)
-    where = _turning_load if _turns(left, right) else _turning_eigenvalue(locator.curve)
+    turns = _turns(left, right)
+    where = _turning_load if turns else _turning_eigenvalue(locator.curve)
     sigma = where(segment)
     width = WIDE * segment.length
     try:
@@ -37,7 +39,9 @@ def touching(locator: Locator, left: Place, right: Place) -> Crossing | None:
             width = NARROW * segment.length
     except NoConvergence:
         return None
-    return None if sigma is None else _at(segment, sigma, locator)
+    found = None if sigma is None else _at(segment, sigma, locator)
+    cusp = found is not None and not turns and found.multiplicity == 1
+    return found if found is None or cusp or not outside(locator.curve, found) else None
 
 
 def outside(curve: Curve, crossing: Crossing) -> int:
@@ -95,5 +99,4 @@ def _at(fence: Segment, sigma: float, locator: Locator) -> Crossing | None:
     off = float(np.sqrt(abs(here.values[p - 1]) / end)) * fence.length  # the eigenvalue is quadratic in it
     slopes = fence.rates(np.array([0.0, 1.0, sigma / fence.length]))
     bend = abs(float(slopes[1] - slopes[0])) / fence.length
-    touched = crossing._replace(touches=True, error=crossing.error + abs(float(slopes[2])) * off + bend * off**2)
-    return None if outside(curve, touched) else touched
+    return crossing._replace(touches=True, error=crossing.error + abs(float(slopes[2])) * off + bend * off**2)

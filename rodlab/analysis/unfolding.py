@@ -1,12 +1,11 @@
 """Folds and branch points followed in two parameters: curves in the plane of the load and a parameter beta.
 
-    folds            F(u, lam, beta) = 0,  F_u v = 0,  v.v = n                       [Moore and Spence 1980]
-                     unknowns (u, v, beta), followed in the load; where the load turns on it, two folds meet in a cusp
-    branch points    F + eps v_0 = 0,  F_u v = 0,  v.v = n,  psi.F_lam = 0            [Moore 1980]
-                     unknowns (u, v, lam, eps), followed in beta; eps is what is missing: where it stays zero so does the branch point
+    folds            F(u, lam, beta) = 0,  F_u v = 0,  v.v = n                      [Moore and Spence 1980]
+                     unknowns (u, v, beta), followed in the load; where the load turns, two folds meet in a cusp
+    branch points    F + eps v_0 = 0,  F_u v = 0,  v.v = n,  psi.F_lam = 0           [Moore 1980]
+                     unknowns (u, v, lam, eps), followed in beta; where eps stays zero so does the branch point
 
-Both are Equations, so that all verbs work on them: `follow(folds(e, "u_hat"), to=...)`, its fold a cusp. A model with a mesh stays
-on that of the event. Symmetric Jacobians: psi = v.
+Both are Equations, so that all verbs work on them. A model with a mesh stays on that of the event. Symmetric Jacobians: psi = v.
 """
 
 from typing import Any
@@ -149,9 +148,9 @@ class BranchPoints(_Unfolded):
 
 
 def folds(event: Event, name: str) -> Point:
-    """The point on the curve of folds in the plane of the load and the parameter `name`, at a fold that was followed.
+    """The point on the curve of folds in the plane of the load and the parameter `name`, at a fold that was met.
 
-    Follow it in the load: `follow(folds(e, "u_hat"), to=...)`; `measure("u_hat")` is the parameter, and a fold of this curve is a cusp.
+    Follow it in the load, `follow(folds(e, "u_hat"), to=...)`; `measure("u_hat")` is the parameter, a fold of this curve a cusp.
     Raises `ValueError` unless the event is a fold of a model with that parameter and a symmetric Jacobian.
 
     >>> from rodlab.analysis.equilibrium import equilibrium
@@ -171,8 +170,8 @@ def folds(event: Event, name: str) -> Point:
 def branch_points(event: Event, name: str) -> Point:
     """The point on the curve of branch points in the plane of the parameter `name` and the load, at one that was followed.
 
-    Follow it in the parameter: `measure("load")` is its load, `measure("broken")` what the equations lack for a branch point: it stays
-    zero where the parameter keeps the symmetry, and grows with the square of an ineffective imperfection, or slower.
+    Follow it in the parameter: `measure("load")` is its load, `measure("broken")` what the equations lack for a branch point:
+    zero where the parameter keeps the symmetry, of a higher power in it where it is ineffective.
     Raises `ValueError` unless the event is a branch point with one null vector.
     """
     _checked(event, "branch point")

@@ -17,6 +17,7 @@ from rodlab.lab.equilibria import all_equilibria
 from rodlab.lab.scene import Scene
 from rodlab.lab.table import table
 from rodlab.mechanics.recipe import build
+from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import number
 
 
@@ -49,7 +50,7 @@ def _diagram(scene: Scene, options: Mapping[str, Any]) -> Answer:
 
 
 def _equilibria(scene: Scene, options: Mapping[str, Any]) -> Answer:
-    strut: Any = build(scene.model)
+    strut = _strut(scene, "equilibria")
     sizes = options.get("n", [strut.n])
     if not isinstance(sizes, list):
         raise ValueError(f"n must be a list of numbers of joints; it is {sizes!r:.60}")
@@ -66,7 +67,9 @@ def _equilibria(scene: Scene, options: Mapping[str, Any]) -> Answer:
 
 
 def _breaking(scene: Scene, options: Mapping[str, Any]) -> Answer:
-    strut: Any = build(scene.model)
+    strut = _strut(scene, "breaking")
+    if not strut.is_straight:
+        raise ValueError(f"[breaking] asks of a straight strut; {strut!r} is not")
     name, show = str(options.get("parameter", "u_hat")), options.get("show", [0.1, 0.01])
     found = breaking(strut, name, number("most", options.get("most", 0.1)))
 
@@ -81,6 +84,13 @@ def _breaking(scene: Scene, options: Mapping[str, Any]) -> Answer:
     tips = {"imperfection": found.small, "tip_angle": found.tips, "root": found.root}
     said = {"lam": found.event.lam, "strength": found.imperfection.strength, "cusp": columns, "tips": tips}
     return Answer(said, _laws(found), draw, complete=True)
+
+
+def _strut(scene: Scene, name: str) -> Strut:
+    strut = build(scene.model)
+    if not isinstance(strut, Strut):
+        raise ValueError(f"[{name}] asks of a strut; the model is {strut!r:.60}")
+    return strut
 
 
 def _bent(strut: Any, top: float) -> list[Branch]:

@@ -3,8 +3,8 @@
     fold of the branch that is cut off       lam - lam_1 ~ beta^(2/3)
     tip angle at the load of the pitchfork    phi_n ~ beta^(1/3)
 
-The cube root is why symmetry breaks numerically: an imperfection of the size of rounding, 1e-16, bends a strut at lam_1 by 1e-5 radians,
-and which side it buckles to beyond is decided by the last bit.
+The cube root is why symmetry breaks numerically: an imperfection of the size of rounding, 1e-16, bends a strut at lam_1 by 1e-5
+radians, and which side it buckles to beyond is decided by the last bit.
 """
 
 from collections.abc import Sequence
@@ -18,6 +18,7 @@ from rodlab.analysis.follow import Branch, follow
 from rodlab.analysis.imperfection import Imperfection, imperfection
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.unfolding import folds
+from rodlab.analysis.vary import vary
 from rodlab.lab.branches import detached, trivial
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array
@@ -60,6 +61,7 @@ def breaking(strut: Strut, name: str = "u_hat", most: float = 0.1, off: Sequence
     >>> b.exponent.round(3), b.root[4:8].round(3)
     (array([0.667]), array([0.333, 0.333, 0.333, 0.333]))
     """
+    vary(strut, name, 0.0)  # a name that the strut does not have is said at once
     event = next(e for e in trivial(strut, 1).events if e.kind == "branch point")
     law = imperfection(event, name)
     bent = strut.replace(**{name: most})

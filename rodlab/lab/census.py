@@ -33,7 +33,7 @@ def census(model: Equations, lam: tuple[float, float], *, looks: int = 9, start:
     first = start if isinstance(start, Point) else equilibrium(model, low, start)
     seeds = [first]
     for load in np.linspace(low, high, looks + 1)[:0:-1]:
-        seeds += _found(model, float(load), seeds)
+        seeds += _found(model, float(load))
     return diagram(model, (low, high), seeds, **options)
 
 
@@ -42,7 +42,7 @@ def agreement(found: Diagram, strut: Strut, loads: Array, **options: Any) -> lis
     return [(float(load), found.count(float(load)), len(all_equilibria(strut, float(load), **options))) for load in loads]
 
 
-def _found(model: Any, load: float, seeds: list[Point]) -> list[Point]:
+def _found(model: Any, load: float) -> list[Point]:
     if isinstance(model, Strut):
         return list(all_equilibria(model, load).points)
     return deflation(model, load)

@@ -52,8 +52,8 @@ def diagram_tables(title: str, d: Diagram) -> str:
 
 
 def of_equilibria(found: Equilibria, *, connected: bool) -> dict[str, Any]:
-    """Every equilibrium with its angles, index, energy, symmetry class and, if asked for, how it stands to the unstressed shape."""
-    entries = []
+    """Every equilibrium with its angles, index, energy, symmetry class and, if asked for, how it stands to the unstressed one."""
+    entries, connected = [], connected and not found.unconnected
     for i, p in enumerate(found.points):
         entry = {"phi": p.u, **of_point(p), "symmetry": found.symmetry(i), "image": found.images[i]}
         entry.pop("accepted")
@@ -64,12 +64,13 @@ def of_equilibria(found: Equilibria, *, connected: bool) -> dict[str, Any]:
 
 def equilibria_table(found: Equilibria, *, connected: bool) -> str:
     """The lowest energies first; what is certified, and the sum that it must have."""
-    rows: list[list[Any]] = []
+    rows: list[Any] = []
+    told = connected and not found.unconnected
     for i, p in enumerate(found.points[:ROWS]):
         index = f"{p.index}" + ("" if p.index_verified else "?")
-        row = [i, known_to(p.tip_angle, p.error), f"{p.energy:.9f}", f"{p.height:.6f}", index, found.symmetry(i)]
-        rows.append([*row, found.standing(i)] if connected else row)
-    columns = ["", "tip angle", "energy", "height", "index", "symmetry", *(["stands"] if connected else [])]
+        row: list[Any] = [i, known_to(p.tip_angle, p.error), f"{p.energy:.9f}", f"{p.height:.6f}", index, found.symmetry(i)]
+        rows.append([*row, *([found.standing(i)] if told else [])])
+    columns = ["", "tip angle", "energy", "height", "index", "symmetry", *(["stands"] if told else [])]
     parts = [table(f"Equilibria of {found.strut!r} at lam = {found.lam:g}", columns, rows)]
     if len(found) > ROWS:
         parts.append(f"(the first {ROWS} of {len(found)})")
@@ -87,6 +88,8 @@ def equilibria_table(found: Equilibria, *, connected: bool) -> str:
 
 
 def _standing(found: Equilibria) -> str:
+    if found.unconnected:
+        return f"which are connected to the unstressed shape could not be told: {found.unconnected}"
     loose = len(found) - sum(found.connected)
     if not loose:
         return "all are connected to the unstressed shape"

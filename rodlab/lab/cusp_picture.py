@@ -16,7 +16,7 @@ NAMES = {"u_hat": r"unstressed curvature $\hat u$"}
 
 
 def cusp_picture(b: Breaking, perfect: Sequence[Branch], bent: Sequence[tuple[float, Sequence[Branch]]]) -> Figure:
-    """Left the branches, perfect in black and imperfect in grey; middle the cusp; right its power law and that of the tip angle."""
+    """Left the branches, perfect black and imperfect grey; middle the cusp; right its power law and that of the tip angle."""
     fig, (left, middle, right) = figure(11.4, 4.0, ncols=3)
     label = NAMES.get(b.imperfection.name, b.imperfection.name)
     most = 1.35 * b.event.lam

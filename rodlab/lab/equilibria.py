@@ -20,7 +20,7 @@ from rodlab.mechanics.krawczyk import krawczyk
 from rodlab.mechanics.sampled import sampled
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array, number, whole
-from rodlab.numerics.balls import ENGINES, engine_of
+from rodlab.numerics.balls import engine_of
 from rodlab.numerics.inertia import Inertia
 
 WORK = {"flint": 10_000_000, "mpmath": 500_000}  # joints of all boxes before giving up: a minute or some
@@ -77,11 +77,21 @@ class Equilibria:
             return tuple(np.abs(p.u - self.strut.unstressed()).max() < CLOSE for p in self.points)
         found = diagram(self.strut, (min(self.lam, 0.0), max(self.lam, 0.0)), equilibrium(self.strut, 0.0))
         if not found.complete:
-            raise NoConvergence(f"the diagram from 0 to {self.lam:g} could not be completed: {found.table}", ())
+            why = next((row.reason for row in found.table if row.reason), "")
+            raise NoConvergence(f"the diagram from 0 to {self.lam:g} could not be completed: {why}", ())
         every, own = np.array([p.u for p in self.points]), np.zeros(len(self.points), dtype=bool)
         for p in found.at(self.lam):
             own |= np.abs(every - p.u).max(axis=1) < 10 * CLOSE
         return tuple(own.tolist())
+
+    @cached_property
+    def unconnected(self) -> str:
+        """Why it cannot be told which are connected; empty where it can."""
+        try:
+            _ = self.connected
+        except NoConvergence as failure:
+            return str(failure)
+        return ""
 
     def standing(self, i: int) -> str:
         """How a point stands to the unstressed shape: "connected", "detached", or of a straight strut "parasite"."""
@@ -111,11 +121,9 @@ def all_equilibria(
     if not isinstance(strut, Strut):
         raise ValueError(f"strut must be a Strut; it is {strut!r:.60}")
     lam = number("lam", lam)
-    if engine is not None and engine not in ENGINES:
-        raise ValueError(f"engine must be one of {', '.join(ENGINES)}; it is {engine!r}")
+    chosen = engine_of(engine)
     if not certify:
         return _sampled(strut, lam, (), None)
-    chosen = engine_of(engine)
     boxes = WORK[chosen] // strut.n + 100 if most is None else whole("most", most, least=1)
     found = cover(strut, lam, most=boxes, engine=chosen)
     if not found.complete:

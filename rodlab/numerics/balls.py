@@ -149,7 +149,11 @@ ENGINES = {"flint": Flint, "mpmath": Mpmath}
 
 
 def engine_of(name: str | None = None) -> str:
-    """The engine of this name, else the fastest one that is installed."""
+    """The engine of this name, else the fastest one that is installed; `ValueError` for one that is not there."""
+    if name is not None and name not in ENGINES:
+        raise ValueError(f"engine must be one of {', '.join(ENGINES)}; it is {name!r}")
+    if name == "flint" and not find_spec("flint"):
+        raise ValueError("engine must be 'mpmath', as python-flint is not installed (pip install python-flint); it is 'flint'")
     return name or ("flint" if find_spec("flint") else "mpmath")
 
 
