@@ -1,5 +1,7 @@
 """All equilibria of a strut: counts against independent searches, certificates against dense eigenvalues, faults."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -38,7 +40,8 @@ def brute_force(strut, lam, samples=40_001):
     turns = np.flatnonzero((rate[:-1] * rate[1:] <= 0) & (value[:-1] * value[1:] > 0))
     starts = [x[changes], x[changes + 1], x[turns], x[turns + 1], (x[turns] + x[turns + 1]) / 2]
     found = []
-    for phi in end(np.concatenate(starts))[2].T:
+    for start in end(np.concatenate(starts))[2].T:
+        phi = start
         for _ in range(30):
             step = np.linalg.solve(strut.hessian(phi, lam).toarray(), strut.gradient(phi, lam))
             phi = phi - step
@@ -113,7 +116,7 @@ def test_every_point_is_a_point():
         assert p.index == again.index
         assert p.error < 1e-12
     energies = [p.energy for p in found]
-    assert all(b >= a - 1e-9 for a, b in zip(energies, energies[1:], strict=False))
+    assert all(b >= a - 1e-9 for a, b in itertools.pairwise(energies))
 
 
 def test_the_continuum_count_for_a_long_strut():
@@ -138,8 +141,10 @@ def test_thousands():
 def test_the_two_arithmetics_agree(name):
     strut = rl.Strut(n=4, rule=name, K="1+s", u_hat=0.3, terms=(rl.self_weight(2.0), rl.end_torque(0.4)))
     one, two = (rl.all_equilibria(strut, 70.0, engine=engine) for engine in ("flint", "mpmath"))
-    assert one.certified and two.certified
-    assert "flint" in one.method and "mpmath" in two.method
+    assert one.certified
+    assert two.certified
+    assert "flint" in one.method
+    assert "mpmath" in two.method
     assert len(one) == len(two) > 3
     for p, q in zip(one, two, strict=True):
         assert np.abs(p.u - q.u).max() <= 4e-16 * (1 + np.abs(p.u).max())
@@ -151,7 +156,8 @@ def test_convexity_and_the_enumeration_agree():
     for lam in (0.0, -2.0, 2.0):
         assert rl.uniqueness(strut, lam)
         found = rl.all_equilibria(strut, lam)
-        assert len(found) == 1 and found.certified
+        assert len(found) == 1
+        assert found.certified
         assert found.points[0].u == pytest.approx(rl.equilibrium(strut, lam).u, abs=1e-14)
 
 
@@ -256,13 +262,18 @@ def test_enclosures(engine):
         third = numbers.number(1.0) / numbers.number(3.0)
         assert 0 < numbers.radius(third) < 1e-20
         assert numbers.sign(third * 3 - 1) == 0
-        assert numbers.sign(third) == 1 and numbers.sign(-third) == -1
+        assert numbers.sign(third) == 1
+        assert numbers.sign(-third) == -1
         box = numbers.hull(numbers.number(1.0), numbers.number(2.0))
         s, c = numbers.sin_cos(box)
-        assert numbers.holds(s, numbers.number(np.sin(1.5))) and numbers.holds(c, numbers.number(np.cos(1.9)))
-        assert numbers.holds(box, numbers.middle(box)) and not numbers.holds(numbers.middle(box), box)
-        assert numbers.floor(box + 0.25) is None and numbers.floor(third + 7) == 7
-        assert numbers.has_integer(box) and not numbers.has_integer(third)
+        assert numbers.holds(s, numbers.number(np.sin(1.5)))
+        assert numbers.holds(c, numbers.number(np.cos(1.9)))
+        assert numbers.holds(box, numbers.middle(box))
+        assert not numbers.holds(numbers.middle(box), box)
+        assert numbers.floor(box + 0.25) is None
+        assert numbers.floor(third + 7) == 7
+        assert numbers.has_integer(box)
+        assert not numbers.has_integer(third)
         assert numbers.value(numbers.meet(box, numbers.number(2.5, 1.0))) == pytest.approx(1.75)
         assert numbers.sign(numbers.two_pi - 6.283185307179586) == 1
 

@@ -26,7 +26,7 @@ from rodlab.numerics.arrays import EPS, Array, number, vector, whole
 from rodlab.numerics.nullspace import near_null
 
 LONGEST = 0.5  # step, as a part of the size of u, at least 1
-ASIDE, MODES = 1.0, 4  # how far beside a solution a run starts, on either side along so many modes nearest null
+MODES = 4  # along which runs start, a distance 1 to either side
 NEAR, MET = 1e-2, 1e-6  # relative: steps below which Newton's own method takes over; distances at which M is singular
 MOVED = 0.1  # by which Newton's method may move what is said to be known
 TRIPLE = 10 * EPS ** (1 / 3)  # how far rounding moves a triple root
@@ -37,20 +37,16 @@ def deflation(
 ) -> list[Point]:
     """Solutions at one load beyond the `known` ones, in the order found; at most `most`, or []: never a claim of all.
 
-    known: points at this load, or arrays. guesses: as of `equilibrium`. A run begins at each guess, then beside it on either
-    side along the few modes nearest null, then so beside every solution, known or found; it ends after `limit` linear solves.
-    What it finds is solved by Newton's method, nothing divided out, and is further from all others than its error and theirs.
-    `newton` of a point lists the solves of the run that found it; runs that found nothing are in none. Where a mesh adapts all
-    runs are on one, the finest of those of known points and guesses; what they find is then adapted.
+    known: points at this load, or arrays. guesses: as of `equilibrium`. A run begins at each guess; then at its reflection in the
+    nearest known solution and beside it, on either side along the modes nearest null; then so for every solution, known or
+    found. It ends after `limit` linear solves; what it finds is solved by Newton's method, nothing divided out, and is further
+    from all others than its error and theirs. `newton` of a point lists the solves of the run that found it, not those of runs
+    that found nothing. Where a mesh adapts all runs are on the finest of those of known points and guesses.
     Raises `ValueError` for wrong arguments, such as a known solution that is none.
 
-    >>> class Cubic:
-    ...     def residual(self, u, lam): return u**3 - u - lam
-    ...     def jacobian(self, u, lam): return np.diag(3 * u**2 - 1)
-    ...     def d_lam(self, u, lam): return -np.ones_like(u)
-    ...     def inner(self, u, v): return u @ v
-    >>> [round(float(p.u[0]), 9) for p in deflation(Cubic(), 0.0, known=[[0.0]], guesses=[[0.0]])]
-    [1.0, -1.0]
+    >>> from rodlab.mechanics.strut import Strut
+    >>> [round(p.tip_angle, 6) for p in deflation(Strut.from_joints(k=[1, 1]), 3.0)]
+    [0.0, 0.529526, -0.529526, 2.966878, -2.966878]
     """
     lam, most, limit = number("lam", lam), whole("most", most, least=1), whole("limit", limit, least=1)
     if not (isinstance(known, (list, tuple)) and isinstance(guesses, (list, tuple))):
@@ -77,19 +73,20 @@ class Runs:
         self.on, self.lam, self.limit, self.known, self.newton = on, lam, limit, known, Newton.at(on, lam)
 
     def starts(self, guesses: list[Array]) -> Iterator[Array]:
-        """The guesses, then places beside them and beside all that is known by then."""
+        """The guesses, then places across and beside them, and so of all that is known by then."""
         yield from guesses
         curve = Curve(self.on)
         for u in chain(guesses, (p.u for p in self.known)):
             if self.newton._residual(u) is not None:
+                yield 2 * min((p.u for p in self.known if p.u is not u), key=lambda v: self.newton.norm(v - u), default=u) - u
                 y = np.append(u, self.lam)
                 for v in near_null(curve.jacobian(y), min(MODES, u.size), symmetric=curve.symmetric(y)).right.T:
-                    yield from (u + side * v / self.newton.norm(v) for side in (ASIDE, -ASIDE))
+                    yield from (u + v / self.newton.norm(v), u - v / self.newton.norm(v))
 
     @np.errstate(all="ignore")
     def run(self, u: Array) -> Point | None:
         """A solution that is not yet known, or None."""
-        newton, history, near = self.newton, list[NewtonStep](), NEAR
+        newton, history, near = self.newton, list[NewtonStep](), NEAR if self.known else math.inf
         while len(history) < self.limit:
             F = newton._residual(u)
             if F is None or (s := newton._step(u, F)) is None or not math.isfinite(slope := self._slope(u, s)):
@@ -97,8 +94,8 @@ class Runs:
             size, scale = newton.norm(s), max(1.0, newton.norm(u))
             tau = math.copysign(1 / max(abs(slope), size / (LONGEST * scale)), slope)
             history.append(NewtonStep(size, newton.norm(F), tau))
-            if size <= near * scale and abs(tau - 1) < 0.5:
-                p, near = _solved(self.on, self.lam, u, history), near / 100
+            if size <= near * scale and abs(slope - 1) < 0.5:
+                p, near = _solved(self.on, self.lam, u, history), min(near / 100, NEAR)
                 if p is not None and not any(newton.norm(p.u - q.u) <= MET * scale + p.remaining for q in self.known):
                     return p
             u = u + tau * s

@@ -31,7 +31,7 @@ SAMPLES = 16  # of the cubic between two points, for several zeros in one step
 class Event:
     """Something at a point of a branch. `error` bounds that of its load as far as rounding and the location can be known.
 
-    kind: "fold", "branch point", "cusp", "end", or the name of your function. multiplicity: eigenvalues that are zero there within
+    kind: "fold", "branch point", "cusp", "end", or the name of your function. multiplicity: eigenvalues zero there within
     `error` (of a fold 1). null: the null vectors, shape (n, multiplicity). reason: why a branch ended, or what did not
     converge. where: how far along its branch, counted in points.
     """

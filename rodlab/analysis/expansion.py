@@ -128,7 +128,7 @@ def _reaches(side: _Sides) -> tuple[float, ...]:
 
 
 def _fitted(eps: Array, solutions: Array, curve: Curve, measure: str | None, order: int) -> tuple[Array, Array, Array]:
-    """Coefficients of load and unknowns, and what rounding of the solutions may do to those of the load."""
+    """Coefficients of load and unknowns, and what rounding may do to those of the load."""
     zero = int(np.flatnonzero(eps == 0)[0])
     near = np.abs(eps) + np.where(
         eps == 0, np.inf, 0.0

@@ -132,7 +132,7 @@ def follow(
     predictions. scale: 1 where a step is given, else a tenth of the loads in question. Direction: the point's tangent if it
     has one, else towards `to`. within: a function of a point that is true inside, or ranges of measures,
     {"tip_angle": (-3, 3)} or {"lam": (0, 50)}. Ends exactly at `to`; on leaving `within`; on closing; after max_points;
-    and, having set out towards `to`, back at p.lam. Two loads for `to` are a window: it ends at either, setting out towards the first.
+    and, having set out towards `to`, back at p.lam. Two loads for `to` are a window: it ends at either, the first its aim.
     until: called with every event; it ends the branch there by returning the reason. watch: called with every point.
     Where the Jacobian has no index (neither symmetric nor with a second variation) only the sign of its determinant is
     followed: an even number of eigenvalues that cross zero in one step is then missed.

@@ -75,7 +75,7 @@ def load(path: Any, model: Equations | None, rebuild: Callable[[Mapping[str, Any
         raise ValueError(f"{path} is not a whole branch: it has no points or no end")
     if not isinstance(models[0], Recorded):
         _solves(points, path)
-    return Branch(points, events)
+    return Branch(points, events, str(record.get("begin", "")))
 
 
 def place(path: Any) -> Path:
@@ -107,7 +107,7 @@ def _record(branch: Branch) -> tuple[dict[str, Any], dict[str, Array]]:
         if e.fence is not None:
             arrays[f"event{i}_fence"] = np.array([e.fence.a, e.fence.ta, e.fence.b, e.fence.tb, e.fence.row])
     record = {
-        "schema": SCHEMA, "rodlab": __version__, "what": "branch", "model": repr(model),
+        "schema": SCHEMA, "rodlab": __version__, "what": "branch", "model": repr(model), "begin": branch.begin,
         "recipes": [getattr(own, "recipe", None) for own in models],
         "meshes": [None if getattr(own, "mesh", None) is None else np.asarray(own.mesh).tolist() for own in models],
         "points": [{**_said(p), "model": _place(models, p)} for p in points],

@@ -32,6 +32,7 @@ def _of_special(row: Special) -> dict[str, Any]:
 def diagram_tables(title: str, d: Diagram) -> str:
     """Special points, and how many solutions there are between them."""
     rows: list[list[Any]] = []
+    number: list[list[Any]] = []
     for row in d.table:
         change = " -> ".join("?" if i is None else str(i) for i in row.index)
         load, error = known_to(row.lam, max(row.error, 1e-15)), small(row.error)
@@ -39,7 +40,7 @@ def diagram_tables(title: str, d: Diagram) -> str:
             change, error = ("?" if row.index[0] is None else str(row.index[0])), ""
         rows.append([row.branch, row.kind, load, error, change, ", ".join(map(str, row.leaving)), row.reason])
     parts = [table(title, ["branch", "", "load", "+-", "index", "leaving", "why"], rows)]
-    number = [[f"{low:.6f}", f"{high:.6f}", count] for low, high, count in d.counts]
+    number += [[f"{low:.6f}", f"{high:.6f}", count] for low, high, count in d.counts]
     parts.append(table("Solutions, mirror images among them", ["from", "to", "number"], number))
     images = [i for i, copies in enumerate(d.copies) if copies > 1]
     said = f"{d!r}"
