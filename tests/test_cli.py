@@ -338,7 +338,7 @@ def test_equilibria_for_a_person(capsys, tmp_path):
 
 def test_certify_is_a_check_that_may_fail(capsys):
     assert cli.main(["equilibria", "-n", "10", "--lam", "100"]) == 0
-    assert "not certified: 1 degenerate" in capsys.readouterr().out
+    assert "not certified: 1 degenerate:" in capsys.readouterr().out
     assert cli.main(["equilibria", "-n", "10", "--lam", "100", "--certify", "--json"]) == 1
     seen = capsys.readouterr()
     assert json.loads(seen.out)["certified"] is False

@@ -256,7 +256,7 @@ class Walk:
         spans = self.prover.spans(segment, hasty=end is not None and end == self.here.index)
         last = spans[-1]
         if not self.prover.proves:
-            self.locator.place(segment, segment.length / 2)  # and half-way
+            self.inspector.smooth(segment)
         index = last.index if last.kind == "regular" else end if end is not None else self.curve.index(segment.b)
         a, b = self.here, Place(segment.b, segment.tb, index)
         if a.index is None and spans[0].index is not None:

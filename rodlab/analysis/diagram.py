@@ -22,12 +22,13 @@ from rodlab.analysis.events import Event
 from rodlab.analysis.follow import Branch, follow
 from rodlab.analysis.kinds import kind_of
 from rodlab.analysis.newton import NoConvergence
-from rodlab.analysis.places import images, lies_on, orbit, same
+from rodlab.analysis.places import images, lies_on, orbit, same, symmetric
 from rodlab.analysis.point import Point
 from rodlab.analysis.switching import switch
 from rodlab.numerics.arrays import number, whole
 
-MEETS = 1e-5  # relative distance of branch points that are the same
+MEETS = 1e-8  # relative distance of branch points that are the same, beyond their errors
+CLEAR = 1e-5  # relative distance of special loads between which solutions are counted
 
 
 @dataclass(frozen=True)
@@ -80,9 +81,12 @@ class Diagram:
         return [p for i in range(len(self.branches)) for p in self._on(i, lam)]
 
     def _on(self, i: int, lam: float) -> list[Point]:
+        own = self.branches[i].at(lam)
+        if self.copies[i] == 1:
+            return own
         found: list[Point] = []
-        for p in self.branches[i].at(lam):
-            found += [p] if self.copies[i] == 1 else [p, *images(p)]
+        for p in own:
+            found += [q for q in (p, *images(p)) if not any(same(q, other) for other in found)]
         return found
 
     def count(self, lam: float) -> int:
@@ -96,13 +100,13 @@ class Diagram:
         inner = sorted({row.lam for row in self.table if low < row.lam < high})
         apart = [low]
         for load in [*inner, high]:
-            if load - apart[-1] > MEETS * (high - low) or load == high:
+            if load - apart[-1] > CLEAR * (high - low) or load == high:
                 apart.append(load)
         return [(a, b, self.count((a + b) / 2)) for a, b in pairwise(apart)]
 
     def connected(self, p: Point) -> bool:
         """True when a solution is connected to the first start; what is not is detached, or a parasite of the discretisation."""
-        return any(same(p, q, MEETS) for q in self.connected_at(p.lam))
+        return any(same(p, q) for q in self.connected_at(p.lam))
 
     def connected_at(self, lam: float) -> list[Point]:
         """The solutions at a load that are connected to the first start."""
@@ -115,10 +119,10 @@ def diagram(
 ) -> Diagram:  # fmt: skip
     """All branches connected to a start, within a window (low, high) of loads.
 
-    start: a Point, several, or a guess at the lower load; None is the model's own start there. step: as of `follow`.
-    most: branches at most. watch: called with every point. Detached branches are found from their own starts.
+    start: a Point, several, or a guess at the lower load; None is the model's own start at the load nearest zero.
+    step: as of `follow`. most: branches at most. watch: called with every point. Detached branches need starts of their own.
     What could not be followed or switched at stands in the table with its reason, and `complete` is False.
-    Raises `ValueError` for wrong arguments; `NoConvergence` where there is no solution at the lower load.
+    Raises `ValueError` for wrong arguments; `NoConvergence` where there is no solution to start from.
 
     >>> from rodlab.mechanics.strut import Strut
     >>> d = diagram(Strut.from_joints(k=[1, 1]), lam=(0, 3))
@@ -131,7 +135,8 @@ def diagram(
     """
     low, high = window_of(lam)
     given = start if isinstance(start, (tuple, list)) and start and isinstance(start[0], Point) else [start]
-    points = [p if isinstance(p, Point) else equilibrium(model, low, p) for p in given]
+    rest = min(max(low, 0.0), high)
+    points = [p if isinstance(p, Point) else equilibrium(model, rest if p is None else low, p) for p in given]
     for p in points:
         if not low <= p.lam <= high:
             raise ValueError(f"start must lie in the window, {low:g} to {high:g}; its load is {p.lam:g}")
@@ -165,6 +170,7 @@ class _Explorer:
         self.window, self.most, self.options = window, most, options
         self.branches: list[Branch] = []
         self.components: list[int] = []
+        self.rows: list[Special] = []
         self.crossings: list[_Crossing] = []
         self.complete, self.component = True, 0
 
@@ -174,10 +180,11 @@ class _Explorer:
             if self._known(p) is None:
                 self.component = len(set(self.components))
                 self._add(self._through(p))
+                self._singular(p)
             while done < len(self.crossings):
                 self._switch(self.crossings[done])
                 done += 1
-        copies = [1 + sum(1 for _ in orbit(branch)) for branch in self.branches]
+        copies = [orbit(branch) for branch in self.branches]
         return Diagram(self.window, self.branches, copies, self.components, list(self._table()), self.complete)
 
     # --- branches -----------------------------------------------------------------------------------------------
@@ -200,7 +207,8 @@ class _Explorer:
             return None
         near = [event.point, *images(event.point)]
         for crossing in self.crossings:
-            if any(same(p, crossing.event.point, MEETS) for p in near):
+            off = 10 * (event.error + crossing.event.error) / (abs(event.lam) or 1.0)
+            if any(same(p, crossing.event.point, MEETS + off) for p in near):
                 return f"meets branch {crossing.branch} at its branch point {crossing.event.lam:.9g}"
         self.crossings.append(_Crossing(event, len(self.branches)))
         return None
@@ -208,7 +216,8 @@ class _Explorer:
     def _add(self, branch: Branch) -> int:
         self.branches.append(branch)
         self.components.append(self.component)
-        self.complete &= branch.completed and not branch.reason.startswith("max_points")
+        located = all(event.converged for event in branch.events)
+        self.complete &= branch.completed and located and not branch.reason.startswith("max_points")
         return len(self.branches) - 1
 
     def _known(self, p: Point) -> int | None:
@@ -224,7 +233,7 @@ class _Explorer:
     def _switch(self, crossing: _Crossing) -> None:
         """Follow what leaves a branch point and is not known."""
         try:
-            crossing.starts = switch(crossing.event)
+            crossing.starts = [symmetric(p) for p in switch(crossing.event, self.window)]
         except (NoConvergence, ValueError) as failure:
             crossing.reason, self.complete = str(failure), False
             return
@@ -246,7 +255,15 @@ class _Explorer:
 
     # --- the table ----------------------------------------------------------------------------------------------------
 
+    def _singular(self, p: Point) -> None:
+        """Say so where a start itself is a fold or branch point, which no step from it meets."""
+        if p.nullity:
+            self.complete = False
+            reason = "the start is singular: begin at another load to know what leaves there"
+            self.rows.append(Special("branch point", p.lam, np.inf, len(self.branches) - 1, reason=reason))
+
     def _table(self) -> Iterator[Special]:
+        yield from self.rows
         for i, branch in enumerate(self.branches):
             for event, index in zip(branch.events, pairwise([*branch.indices(), None]), strict=True):
                 yield self._row(i, event, index)

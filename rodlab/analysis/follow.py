@@ -15,7 +15,7 @@ from rodlab.analysis.curve import Curve
 from rodlab.analysis.events import Event, SingularPoints, Zero, branch_point, finders, fold
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
-from rodlab.analysis.stops import Stops, Within, inside_of, passages, passed, piece
+from rodlab.analysis.stops import Stops, Within, inside_of, passages, passed, piece, rises
 from rodlab.numerics.arrays import Array, number, whole
 
 
@@ -107,12 +107,20 @@ class Branch:
         """
         lam = number("lam", lam)
         found = [p for p in self.points[:1] if p.lam == lam]
-        for a, b in pairwise(self.points):
+        for a, b in pairwise(self._turning_points()):
             segment = piece(a, b)
             inner = [part for part in passages(segment, lam) if part < 1]
+            if rises(segment):  # then it passes the load once or not at all, whatever its cubic does
+                inner = inner[:1] or [0.5] if (a.lam - lam) * (b.lam - lam) < 0 else []
             found += [passed(Curve(b.equations), segment, part, lam, b.accepted) for part in inner]
             found += [b] if b.lam == lam else []
         return found
+
+    def _turning_points(self) -> list[Point]:
+        """The points, with the folds between them."""
+        folds = [(e.where, e.point) for e in self.events if e.kind == "fold" and e.converged]
+        every = [*((float(i), p) for i, p in enumerate(self.points)), *folds]
+        return [p for _, p in sorted(every, key=lambda entry: entry[0])]
 
     def save(self, path: Any) -> Any:
         """Write the branch whole to a .json or .npz file, to be read by `rl.read`; returns the path."""

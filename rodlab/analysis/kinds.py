@@ -20,22 +20,37 @@ def kind_of(event: Event, starts: list[Point], index: tuple[int | None, int | No
     """The kind of a branch point from what leaves it and the index before and after along the followed branch."""
     if event.multiplicity != 1 or len(starts) != 2:
         return "branch point"
+    way = _turns(event)
+    if way:  # met on the side branch of a pitchfork; the other one passes
+        low, high = sorted(starts, key=lambda p: p.lam)
+        return f"{_direction(way, (low.index, high.index))} pitchfork" if low.lam < event.lam < high.lam else "branch point"
     try:
         series = expansion(event, 2, starts=starts)
-    except (NoConvergence, ValueError):
-        return "branch point"
+    except (NoConvergence, ValueError):  # the other branch has no part along the null vector: it passes as well
+        passes = (starts[0].lam - event.lam) * (starts[1].lam - event.lam) < 0
+        return "transcritical" if passes else "branch point"
     if _certain(series, 1):
         return "transcritical"
-    return f"{_direction(event, series, index)} pitchfork" if _certain(series, 2) else "branch point"
+    if not _certain(series, 2):
+        return "branch point"
+    forward = event.point.tangent is None or event.point.tangent[-1] >= 0
+    return f"{_direction(series.load[2], index if forward else index[::-1])} pitchfork"
+
+
+def _turns(event: Event) -> float:
+    """Where the load turns on the followed branch: 1 if it is least there, -1 if greatest; else 0."""
+    fence = event.fence
+    if fence is None or fence.ta[-1] * fence.tb[-1] >= 0:
+        return 0.0
+    return 1.0 if fence.tb[-1] > 0 else -1.0
 
 
 def _certain(series: Expansion, k: int) -> bool:
     return bool(abs(series.load[k]) > SURE * series.error[k])
 
 
-def _direction(event: Event, series: Expansion, index: tuple[int | None, int | None]) -> str:
-    """Supercritical or subcritical."""
-    forward = event.point.tangent is None or event.point.tangent[-1] >= 0
-    low, high = index if forward else index[::-1]  # at lower and higher loads
+def _direction(way: float, index: tuple[int | None, int | None]) -> str:
+    """Of a pitchfork that opens to higher loads (way > 0) or lower ones, from the index of what passes below and above it."""
+    low, high = index
     gaining = 1 if low is None or high is None else high - low
-    return "supercritical" if series.load[2] * gaining > 0 else "subcritical"
+    return "supercritical" if way * gaining > 0 else "subcritical"

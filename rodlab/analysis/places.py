@@ -1,6 +1,6 @@
 """Is this solution on that branch? What a diagram compares, and the images of a solution under the model's symmetries."""
 
-from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -14,6 +14,7 @@ from rodlab.analysis.point import Point
 from rodlab.analysis.stops import piece
 
 SAME = 1e-6  # relative distance of solutions that are the same
+ROUNDING = 1e-9  # relative distance of a solution from its image that is rounding
 NEAR = 0.1  # distance from the cubic, as a part of its step, within which a solution may be on it
 MOST = 64  # images
 
@@ -30,6 +31,15 @@ def images(p: Point) -> list[Point]:
                 found.append(q)
                 new.append(q)
     return found[1:]
+
+
+def symmetric(p: Point) -> Point:
+    """The same solution, exactly its own image under every symmetry of which it is one up to rounding."""
+    for g in getattr(p.equations, "symmetries", ()):
+        if same(p, _mapped(p, g), ROUNDING):
+            t = None if p.tangent is None else np.append((p.tangent[:-1] + g(p.tangent[:-1])) / 2, p.tangent[-1])
+            p = replace(p, u=np.asarray((p.u + g(p.u)) / 2), tangent=t)
+    return p
 
 
 def _mapped(p: Point, g: Any) -> Point:
@@ -78,9 +88,8 @@ def _between(a: Point, b: Point, p: Point) -> bool:
     return curve.norm(exact - y) <= slack
 
 
-def orbit(branch: Branch) -> Iterator[int]:
-    """Which images of the branch are other branches: their numbers, counted as `images` of its middle point counts."""
-    middle = branch.along((len(branch) - 1) / 2)
-    for i, image in enumerate(images(middle)):
-        if not lies_on(branch, image):
-            yield i
+def orbit(branch: Branch) -> int:
+    """How many branches the symmetries make of this one, itself among them: images of a point on it, over those on it too."""
+    p = branch.points[len(branch.points) // 2]
+    every = images(p)
+    return (1 + len(every)) // (1 + sum(lies_on(branch, image) for image in every))

@@ -9,6 +9,7 @@ open, nothing explains it    refused: the step is too long
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import NamedTuple
 
 from rodlab.analysis.crossings import Crossing, Locator, Place
@@ -19,6 +20,8 @@ from rodlab.analysis.touching import outside, touching
 
 PARTS = 2  # how often a step that stays open is halved, the solutions half-way computed
 FINE = 2.0**-3  # the smallest part of such a half that is tried
+SMOOTH = 1e-6  # how far half-way from the cubic, as a part of its length, without a further look
+GAIN = 3.0  # how much nearer in the halves at least; 16 where the branch is smooth and the step short
 HALFWAY = 2e-3  # how far half-way from the cubic, as a part of its length, where nothing better can be shown
 TINY = 1e-5  # parts shorter than this, relative to the point, may stay open: rounding hides what is there
 
@@ -72,6 +75,25 @@ class Inspector:
         windows = list(self._grouped(segment, a, b, spans, patience))
         _orientation(a, b, windows, self.curve)
         return windows, not open_somewhere
+
+    def smooth(self, segment: Segment) -> None:
+        """Raise unless the solution half-way is where the cubic says, and those half-way to it ever better: no kink.
+
+        The cubic is wrong by the fourth power of its length; a step from one branch to another is wrong by the first.
+        """
+        middle, off = self._off(segment)
+        if off <= SMOOTH * abs(segment.length):
+            return
+        ends = Place(segment.a, segment.ta, None), middle, Place(segment.b, segment.tb, None)
+        for a, b in pairwise(ends):
+            _, half = self._off(self.locator.segment(a, b))
+            if half > off / GAIN:
+                raise NoConvergence(f"the branch has a kink: off its cubic by {off:.1g}, in a half of it still by {half:.1g}", ())
+
+    def _off(self, segment: Segment) -> tuple[Place, float]:
+        """The solution half-way, and how far beside the cubic it is."""
+        middle = self.locator.place(segment, segment.length / 2)
+        return middle, self.curve.norm(middle.y - segment.at(segment.length / 2))
 
     def _grouped(self, segment: Segment, a: Place, b: Place, spans: list[Span], patience: Patience) -> Iterator[Window]:
         for group in _groups(spans):

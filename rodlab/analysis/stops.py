@@ -31,6 +31,12 @@ def piece(a: Point, b: Point) -> Segment:
     return Segment(ya, np.asarray(ta), yb, np.asarray(tb), curve.row(chord))
 
 
+def rises(segment: Segment) -> bool:
+    """True when the load changes one way at both ends, as it does between them."""
+    way = float(segment.b[-1] - segment.a[-1])
+    return all(way * segment.length * float(slope[-1]) >= 0 for slope in segment.slopes) and way != 0
+
+
 def passages(segment: Segment, lam: float) -> list[float]:
     """Parts of its length, above 0 and up to 1, at which the cubic passes a load."""
     a, b = float(segment.a[-1]), float(segment.b[-1])
@@ -41,8 +47,9 @@ def passages(segment: Segment, lam: float) -> list[float]:
     cubic = np.array([da + db - 2 * (b - a), 3 * (b - a) - 2 * da - db, da, a - lam])
     roots = np.roots(cubic[:-1] if a == lam else cubic)
     real = sorted(float(x.real) for x in roots if abs(x.imag) <= 1e-9 * (1 + abs(x)))
-    found = [x for x in real if 1e-12 < x < 1]
-    return [*found, 1.0] if b == lam else found
+    if b == lam:  # one of the roots is 1, up to rounding
+        return [*(x for x in real if 1e-12 < x < 1 - 1e-7), 1.0]
+    return [x for x in real if 1e-12 < x < 1]
 
 
 def at_load(curve: Curve, segment: Segment, part: float, lam: float, accepted: str, known: Inertia | None = None) -> Point:

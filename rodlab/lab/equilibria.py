@@ -17,13 +17,16 @@ from rodlab.analysis.newton import Newton, NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.mechanics.enumerate import CLOSE, Root, cover
 from rodlab.mechanics.krawczyk import krawczyk
-from rodlab.mechanics.sampled import sampled
+from rodlab.mechanics.recurrence import bits, precision
+from rodlab.mechanics.sampled import sampled, too_many
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array, number, whole
 from rodlab.numerics.balls import engine_of
 from rodlab.numerics.inertia import Inertia
 
-WORK = {"flint": 10_000_000, "mpmath": 500_000}  # joints of all boxes before giving up: a minute or some
+WORK = {"flint": 6_000_000, "mpmath": 300_000}  # joints of all boxes before giving up: a minute or two
+CHAOTIC = 48  # binary digits lost on the way to the clamp, beyond which floats are asked first whether it is worth it
+LARGE = 1e-9  # radius of angles that floats hold too coarsely to certify
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,38 +119,41 @@ def all_equilibria(
 
     >>> found = all_equilibria(Strut.from_joints(k=[1, 1]), lam=3.0)
     >>> [(round(p.tip_angle, 6), p.index) for p in found], found.certified, found.index_sum
-    ([(2.165168, 0), (-2.165168, 0), (-0.547411, 1), (0.547411, 1), (0.0, 2)], True, 1)
+    ([(2.966878, 0), (-2.966878, 0), (0.529526, 1), (-0.529526, 1), (0.0, 2)], True, 1)
     """
     if not isinstance(strut, Strut):
         raise ValueError(f"strut must be a Strut; it is {strut!r:.60}")
     lam = number("lam", lam)
     chosen = engine_of(engine)
+    if not isinstance(certify, bool):
+        raise ValueError(f"certify must be True or False; it is {certify!r:.60}")
     if not certify:
         return _sampled(strut, lam, (), None)
-    boxes = WORK[chosen] // strut.n + 100 if most is None else whole("most", most, least=1)
-    found = cover(strut, lam, most=boxes, engine=chosen)
+    digits = precision(strut, lam)
+    if too_many(strut, lam) or (bits(strut, lam) > CHAOTIC and sampled(strut, lam) is None):
+        raise NoConvergence(_too_many(strut, lam), ())
+    work = int(WORK[chosen] / strut.n / (1 + digits / 512)) + 100
+    found = cover(strut, lam, most=work if most is None else whole("most", most, least=1), engine=chosen)
     if not found.complete:
         return _sampled(strut, lam, (f"{found.boxes} boxes did not suffice to cover all tip angles",), chosen)
     points = [_point(strut, lam, root) for root in (*found.roots, *found.clusters)]
     method = f"one turn of tip angles covered by {found.boxes} boxes in {found.method}"
-    reason = ""
+    reason, coarse = "", max((root.radius for root in found.roots), default=0.0)
     if found.clusters:
-        near = f"next to the tip angle {found.clusters[0].phi[-1]:.6g}"
-        reason = (
-            f"{len(found.clusters)} degenerate {near}, one or several: the load is that of a fold or branch point, to rounding"
-        )
-    return Equilibria(strut, lam, _ordered(points), not found.clusters, method, reason)
+        near = f"next to the tip angle {found.clusters[0].phi[-1]:.6g} there may be one, several or none"
+        reason = f"{len(found.clusters)} degenerate: {near}, as at the load of a fold or branch point, to rounding"
+    elif coarse > LARGE:
+        reason = f"floats hold angles as large as these only to {coarse:.1e} radians"
+    return Equilibria(strut, lam, _ordered(points), not reason, method, reason)
 
 
 def _sampled(strut: Strut, lam: float, why: Sequence[str], engine: str | None) -> Equilibria:
     """Those that samples show, corrected; with an engine each is proved to exist."""
     shown = sampled(strut, lam)
     if shown is None:
-        raise NoConvergence(
-            f"there are too many equilibria at lam = {lam:g} to be told apart: the map of {strut!r} is chaotic", ()
-        )
+        raise NoConvergence(_too_many(strut, lam), ())
     run, points, reasons = Newton.at(strut, lam), dict[tuple[float, ...], Point](), list(why)
-    lost = unproved = 0
+    lost, unproved = 0, 0
     for phi in shown:
         try:
             root = run.solve(phi)
@@ -172,13 +178,18 @@ def _sampled(strut: Strut, lam: float, why: Sequence[str], engine: str | None) -
     return Equilibria(strut, lam, found.points, False, method, "; ".join(reasons))
 
 
+def _too_many(strut: Strut, lam: float) -> str:
+    return f"there are too many equilibria at lam = {lam:g} to be told apart, of {strut!r:.80}"
+
+
 def _point(strut: Strut, lam: float, root: Root) -> Point:
     known = None if root.index is None else Inertia(root.index, 0, strut.n - root.index)
     return Point(strut, lam, root.phi, (), root.radius, known_inertia=known)
 
 
 def _ordered(points: Iterable[Point]) -> tuple[Point, ...]:
-    return tuple(sorted(points, key=lambda p: (round(p.energy, 9), p.index, -abs(p.tip_angle), -p.tip_angle)))
+    with np.errstate(all="ignore"):
+        return tuple(sorted(points, key=lambda p: (round(p.energy, 9), p.index or 0, -abs(p.tip_angle), -p.tip_angle)))
 
 
 def _key(u: Array) -> tuple[float, ...]:

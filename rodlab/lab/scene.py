@@ -58,7 +58,7 @@ def scenes() -> list[Scene]:
     """The scenes of the house, by name.
 
     >>> [scene.name for scene in scenes()][:3]
-    ['bend', 'imperfect', 'many-loads']
+    ['bend', 'connected', 'cusp']
     """
     return [read_scene(path) for path in sorted(HOUSE.glob("*.toml"))]
 

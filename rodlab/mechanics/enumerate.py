@@ -4,9 +4,8 @@
     0 not in psi_0(box): phi_0 is monotone           as many as whole turns between its ends, each the only one between
     neither                                          two halves
 
-Boxes that stay open though all angles in them agree to a millionth hold an equilibrium that is degenerate, or several next to
-each other: a cluster. Cost: boxes times n; the boxes grow with the number of equilibria, and for long struts with the square
-root of the growth of psi.
+Boxes that stay open though all angles in them agree to a millionth hold an equilibrium that is degenerate, several next to each
+other, or none but nearly one: a cluster. Cost: boxes times n; the boxes grow with the number of equilibria, and with the load.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,24 +15,24 @@ from typing import Any
 
 import numpy as np
 
-from rodlab.mechanics.recurrence import Recurrence, bits, index_of
+from rodlab.mechanics.recurrence import Recurrence, index_of, precision
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array
 from rodlab.numerics.balls import Balls, balls
 
 FIRST = 16  # boxes to begin with
-SPARE = 64  # binary digits beyond those that the map may lose
 CLOSE = 1e-6  # angles that agree to this are not told apart
 SHARP = 1e-17  # radius of the angles of an equilibrium
 SLOW = 0.6  # an interval Newton step that shrinks its box by less is replaced by half the box
 LOOPS = 400
 NEWTON = 40
-BEGIN = -3.0123456789  # where the circle is cut: an angle that nothing suggests
+COST = 2  # boxes that a root is worth
+BEGIN = (-3.0123456789, -2.7301234567, -1.3456789012)  # where the circle may be cut: angles that nothing suggests
 
 
 @dataclass(frozen=True, eq=False)
 class Root:
-    """Angles (n,) of an equilibrium within `radius`, its index; None where the equilibrium is not proved to be alone."""
+    """Angles (n,) of an equilibrium within `radius`, rounding to floats in it; its index, None where not proved to be alone."""
 
     phi: Array
     radius: float
@@ -54,13 +53,14 @@ class Cover:
 def cover(strut: Strut, lam: float, *, most: int, engine: str | None = None) -> Cover:
     """Every equilibrium at the load, each proved to exist and to be alone in its box, and where a proof stays open.
 
-    most: boxes before giving up. Raises `ValueError` for terms that the map does not know.
+    most: boxes before giving up, a root being worth two. Raises `ValueError` for terms that the map does not know, and
+    `ArithmeticError` where no sensible precision would do.
 
     >>> found = cover(Strut.from_joints(k=[1.0, 1.0]), 3.0, most=1000)
     >>> [(root.phi.round(3).tolist(), root.index) for root in found.roots]
-    [([0.0, 0.0], 2), ([1.372, 2.165], 0), ([-1.372, -2.165], 0), ([0.756, -0.547], 1), ([-0.756, 0.547], 1)]
+    [([0.0, 0.0], 2), ([-0.986, 0.53], 1), ([0.986, -0.53], 1), ([2.445, 2.967], 0), ([-2.445, -2.967], 0)]
     """
-    with balls(SPARE + 2 * int(bits(strut, lam)), engine) as numbers:
+    with balls(precision(strut, lam), engine) as numbers:
         search = _Search(Recurrence(strut, lam, numbers), numbers, most)
         search.run()
         return search.found
@@ -76,12 +76,13 @@ class _Search:
         if self.map.odd:  # -a is the mirror image of a
             low, high = self._middle(), two_pi / 2
         else:
-            low, high = number(BEGIN), number(BEGIN) + two_pi
+            cut = next((a for a in BEGIN if not self.numbers.has_integer(self._turns(self.map.angle(number(a))))), BEGIN[0])
+            low, high = number(cut), number(cut) + two_pi
         ends = [low + (high - low) * i / FIRST for i in range(FIRST)] + [high]
         open_: list[tuple[Any, Any]] = []
         stack = list(pairwise(ends))[::-1]
         while stack:
-            if self.found.boxes == self.most:
+            if not self.found.complete or self.found.boxes + COST * len(self.found.roots) >= self.most:
                 self.found.complete = False
                 return
             open_ += self._decide(*stack.pop(), stack)
@@ -97,7 +98,8 @@ class _Search:
         if numbers.sign(psi[-1]):
             turns = self._whole_turns(low, high)
             if turns is not None:
-                for j in turns:
+                found.complete = found.boxes + COST * (len(found.roots) + len(turns)) <= self.most
+                for j in turns if found.complete else ():
                     self._keep(box, j)
                 return
         elif not numbers.has_integer(self._turns(angles[-1] + psi[-1] * (box - angles[0]))) or not numbers.has_integer(
@@ -132,10 +134,11 @@ class _Search:
         while True:
             box, _, slopes, phi, psi = self._enclosed(numbers.number(-width), numbers.number(width))
             self.found.boxes += 1
+            index = index_of([numbers.sign(x) for x in slopes])
             alone = numbers.sign(psi[-1]) and numbers.sign(numbers.two_pi - phi[-1]) and numbers.sign(numbers.two_pi + phi[-1])
             zero = np.zeros(self.map.n)
-            if alone:
-                self.found.roots.append(Root(zero, 0.0, index_of([numbers.sign(x) for x in slopes])))
+            if alone and index is not None:
+                self.found.roots.append(Root(zero, 0.0, index))
                 return numbers.number(width)
             if self._reach(box, slopes) < CLOSE:
                 self.found.clusters.append(Root(zero, width, None))
@@ -196,8 +199,10 @@ class _Search:
 
     def _kept(self, where: list[Root], phi: Sequence[Any], turns: int, index: int | None, radius: float = 0.0) -> None:
         numbers = self.numbers
-        radius = max(radius, *(numbers.radius(x) for x in phi))
-        angles = np.array([numbers.value(x - numbers.two_pi * turns) for x in phi[-2::-1]])
+        exact = [x - numbers.two_pi * turns for x in phi[-2::-1]]
+        angles = np.array([numbers.value(x) for x in exact])
+        radius = max(radius, *(numbers.radius(x - numbers.number(a)) for x, a in zip(exact, angles.tolist(), strict=True)))
+        radius += float(np.spacing(np.abs(angles).max())) / 2
         where.append(Root(angles, radius, index))
         if self.map.odd:
             where.append(Root(-angles, radius, index))
@@ -209,6 +214,10 @@ class _Search:
             if groups and numbers.sign(low - groups[-1][1]) <= 0:
                 low = groups.pop()[0]  # noqa: PLW2901
             groups.append((low, high))
+        ends = (groups[0][0], groups[-1][1]) if len(groups) > 1 and not self.map.odd else None
+        if ends and numbers.sign(ends[1] - ends[0] - numbers.two_pi) == 0:  # two that meet where the circle was cut
+            low, _ = groups.pop()
+            groups[0] = (low - numbers.two_pi, groups[0][1])
         straight = self.found.clusters[:1] if self.map.odd else []
         if straight and groups and abs(numbers.value(groups[0][0]) - straight[0].radius) < CLOSE:
             self.found.clusters[0] = Root(straight[0].phi, numbers.value(groups.pop(0)[1]), None)

@@ -12,8 +12,10 @@ so that C times a vector costs O(n).
 from collections.abc import Sequence
 from typing import Any
 
-from rodlab.mechanics.enumerate import SPARE, Root
-from rodlab.mechanics.recurrence import Recurrence, bits, index_of
+import numpy as np
+
+from rodlab.mechanics.enumerate import Root
+from rodlab.mechanics.recurrence import Recurrence, index_of, precision
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array
 from rodlab.numerics.balls import Balls, balls
@@ -25,11 +27,11 @@ def krawczyk(strut: Strut, lam: float, phi: Array, engine: str | None = None) ->
     """The equilibrium next to the angles phi (n,), within a radius, and its index; None where the test fails.
 
     >>> import numpy as np
-    >>> root = krawczyk(Strut.from_joints(k=[1.0, 1.0]), 3.0, np.array([0.7559107, -0.5474112]))
-    >>> root.index, 1e-9 < root.radius < 1e-6
+    >>> root = krawczyk(Strut.from_joints(k=[1.0, 1.0]), 3.0, np.array([0.986, -0.5295]))
+    >>> root.index, 1e-5 < root.radius < 1e-2
     (1, True)
     """
-    with balls(SPARE + 2 * int(bits(strut, lam)), engine) as numbers:
+    with balls(precision(strut, lam), engine) as numbers:
         return _tested(Recurrence(strut, lam, numbers), numbers, phi)
 
 
@@ -86,5 +88,6 @@ def _green(chi: Sequence[Any], psi: Sequence[Any], w: Sequence[Any]) -> list[Any
 
 
 def _largest(values: Sequence[Any], numbers: Balls) -> float:
-    """Bound on the largest size."""
-    return max((abs(numbers.value(x)) + numbers.radius(x)) * (1 + 1e-9) for x in values)
+    """Bound on the largest size; infinite where one is not known."""
+    sizes = np.array([(abs(numbers.value(x)) + numbers.radius(x)) * (1 + 1e-9) for x in values])
+    return float(sizes.max()) if np.isfinite(sizes).all() else np.inf

@@ -18,6 +18,8 @@ from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array
 from rodlab.numerics.balls import Balls
 
+SPARE = 64  # binary digits beyond those that the map may lose
+MOST = 4096
 KNOWN = ("self_weight", "end_torque")
 
 
@@ -40,7 +42,7 @@ class Recurrence:
 
     >>> strut = Strut.from_joints(k=[1.0, 1.0])
     >>> phi, psi = Recurrence(strut, 3.0, Floats()).thin(0.0)
-    >>> phi, psi                                             # the straight strut: two changes of sign, index 2
+    >>> [float(x) for x in phi], [float(x) for x in psi]     # the straight strut: two changes of sign, index 2
     ([0.0, 0.0, 0.0], [1.0, -2.0, 1.0])
     """
 
@@ -66,6 +68,15 @@ class Recurrence:
             M = M + P * self.numbers.sin_cos(phi)[0]
             phi = phi - beta - M / k
         return phi
+
+    def end(self, a: Any) -> tuple[Any, Any]:
+        """phi_0 and psi_0 alone, at a number a or at an array of them."""
+        phi, psi, M, dM = a, a * 0 + 1, self.tau, 0
+        for P, k, beta in zip(self.P, self.k, self.beta, strict=True):
+            s, c = self.numbers.sin_cos(phi)
+            M, dM = M + P * s, dM + P * (c * psi)
+            phi, psi = phi - beta - M / k, psi - dM / k
+        return phi, psi
 
     def thin(self, a: Any) -> tuple[list[Any], list[Any]]:
         """phi and psi at a number a, or at an array of them."""
@@ -104,14 +115,31 @@ class Recurrence:
 
 
 def bits(strut: Strut, lam: float) -> float:
-    """How many binary digits a small change of the tip angle may gain on the way to the clamp.
+    """How many binary digits a small change of the tip angle may gain on the way to the clamp; infinite beyond floats.
 
     >>> round(bits(Strut(n=8), 256.0)), round(bits(Strut(n=100), 130.0))
     (20, 16)
     """
     own = Recurrence(strut, lam, Floats())
-    r = np.abs(np.array(own.P)) / np.array(own.k)
-    return float(np.log2(1 + r / 2 + np.sqrt(r + r * r / 4)).sum())
+    with np.errstate(all="ignore"):
+        half = np.sqrt(np.abs(np.array(own.P)) / np.array(own.k)) / 2
+        gained = 2 * float(np.log2(half + np.hypot(1.0, half)).sum())
+    return gained if np.isfinite(gained) else np.inf
+
+
+def precision(strut: Strut, lam: float) -> int:
+    """Binary digits in which a proof computes: for the growth of psi, and for angles of any size.
+
+    Raises `ArithmeticError` where more would be needed than is sensible.
+    """
+    own = Recurrence(strut, lam, Floats())
+    with np.errstate(all="ignore"):
+        moments = abs(float(strut.parameters.get("tau", 0.0))) + np.abs(own.P).sum()
+        turned = abs(strut.joints.phi0) + np.abs(strut.joints.beta).sum() + moments * (1 / strut.joints.k).sum()
+        needed = SPARE + 2 * bits(strut, lam) + np.log2(strut.n * (1 + turned))
+    if not needed <= MOST:
+        raise ArithmeticError(f"the equilibria at lam = {lam:g} cannot be told apart in {MOST} binary digits, of {strut!r:.80}")
+    return int(needed)
 
 
 def index_of(signs: Sequence[int]) -> int | None:

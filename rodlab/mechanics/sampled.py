@@ -7,7 +7,6 @@ that can be had. Cost: samples times n.
 
 import numpy as np
 
-from rodlab.mechanics.enumerate import BEGIN
 from rodlab.mechanics.recurrence import Floats, Recurrence
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array
@@ -15,6 +14,9 @@ from rodlab.numerics.arrays import Array
 FIRST = 2049
 FINE = 1e-3  # error of a cubic half-way between its samples, radians
 ROUNDS = 60
+MANY, MOST = 100_000, 1_000_000  # equilibria, and angles of all of them
+COARSE = 1_000_000  # samples times n, to see whether there are too many
+BEGIN = -3.0123456789  # where the circle is cut
 FROM_STRAIGHT = 1e-9  # tip angle beside the straight strut that a straight one is searched from
 
 
@@ -22,11 +24,18 @@ def sampled(strut: Strut, lam: float, *, most: int = 1_000_000) -> list[Array] |
     """Angles (n,) of every equilibrium that samples show, about; None where `most` samples do not resolve the function.
 
     >>> [phi.round(2).tolist() for phi in sampled(Strut.from_joints(k=[1.0, 1.0]), 3.0)]
-    [[0.0, 0.0], [0.76, -0.55], [-0.76, 0.55], [1.37, 2.17], [-1.37, -2.17]]
+    [[0.0, 0.0], [-0.99, 0.53], [0.99, -0.53], [2.45, 2.97], [-2.45, -2.97]]
     """
+    if too_many(strut, lam):
+        return None
     map_ = Recurrence(strut, lam, Floats())
     low, high = (FROM_STRAIGHT, np.pi) if map_.odd else (BEGIN, BEGIN + 2 * np.pi)
     a = np.linspace(low, high, FIRST)
+    with np.errstate(all="ignore"):
+        return _found(map_, a, most)
+
+
+def _found(map_: Recurrence, a: Array, most: int) -> list[Array] | None:
     G, slope = _values(map_, a)
     while True:
         middle = (a[:-1] + a[1:]) / 2
@@ -35,20 +44,32 @@ def sampled(strut: Strut, lam: float, *, most: int = 1_000_000) -> list[Array] |
         new = (np.abs(at - cubic) > FINE) & (middle > a[:-1]) & (middle < a[1:])
         if not new.any():
             break
-        if a.size + new.sum() > most:
+        if a.size + new.sum() > most or not np.isfinite(at).all():
             return None
         a, G, slope = _merged((a, G, slope), (middle[new], at[new], rate[new]))
     a, G = _with_extrema(map_, a, G, slope)
+    many = float(np.abs(np.diff(np.floor(G / (2 * np.pi)))).sum())
+    if many > MANY or many * map_.n > MOST:
+        return None
     tips, turns = _roots(map_, a, G)
     angles = np.array(map_.thin(tips)[0][-2::-1]).T - 2 * np.pi * turns[:, None]
     if not map_.odd:
         return list(angles)
-    return [np.zeros(strut.n), *(side * phi for phi in angles for side in (1.0, -1.0))]
+    return [np.zeros(map_.n), *(side * phi for phi in angles for side in (1.0, -1.0))]
+
+
+def too_many(strut: Strut, lam: float) -> bool:
+    """True when even a coarse sample shows more equilibria than can be listed, or floats cannot follow the function at all."""
+    map_ = Recurrence(strut, lam, Floats())
+    with np.errstate(all="ignore"):
+        phi, _ = map_.end(np.linspace(BEGIN, BEGIN + 2 * np.pi, COARSE // strut.n + FIRST))
+        turns = np.abs(np.diff(np.floor(phi / (2 * np.pi)))).sum()
+    return not turns <= MANY
 
 
 def _values(map_: Recurrence, a: Array) -> tuple[Array, Array]:
-    angles, slopes = map_.thin(a)
-    return angles[-1] - map_.phi0, slopes[-1]
+    phi, psi = map_.end(a)
+    return phi - map_.phi0, psi
 
 
 def _merged(old: tuple[Array, ...], new: tuple[Array, ...]) -> tuple[Array, ...]:

@@ -7,6 +7,7 @@ needs it; both compute with `bits` of precision.
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
+from threading import RLock
 from typing import Any, Protocol
 
 
@@ -150,33 +151,37 @@ ENGINES = {"flint": Flint, "mpmath": Mpmath}
 
 def engine_of(name: str | None = None) -> str:
     """The engine of this name, else the fastest one that is installed; `ValueError` for one that is not there."""
-    if name is not None and name not in ENGINES:
+    if name is not None and (not isinstance(name, str) or name not in ENGINES):
         raise ValueError(f"engine must be one of {', '.join(ENGINES)}; it is {name!r}")
     if name == "flint" and not find_spec("flint"):
         raise ValueError("engine must be 'mpmath', as python-flint is not installed (pip install python-flint); it is 'flint'")
     return name or ("flint" if find_spec("flint") else "mpmath")
 
 
+_ONE = RLock()  # the precision is a state of both packages: one proof at a time
+
+
 @contextmanager
 def balls(bits: int, engine: str | None = None) -> Iterator[Balls]:
-    """Arithmetic of this precision; python-flint's where it is installed, unless the engine is named.
+    """Arithmetic of this precision; python-flint's where it is installed, unless the engine is named. One thread at a time.
 
     >>> with balls(80, "mpmath") as arithmetic:
     ...     x = arithmetic.number(1.0, 0.25)
     ...     arithmetic.sign(x), arithmetic.floor(x), arithmetic.has_integer(x)
     (1, None, True)
     """
-    if engine_of(engine) == "flint":
-        from flint import ctx
+    with _ONE:
+        if engine_of(engine) == "flint":
+            from flint import ctx
 
-        with ctx.workprec(bits):
-            yield Flint()
-        return
-    from mpmath import iv, mp
+            with ctx.workprec(bits):
+                yield Flint()
+            return
+        from mpmath import iv, mp
 
-    before = iv.prec, mp.prec
-    iv.prec = mp.prec = bits
-    try:
-        yield Mpmath()
-    finally:
-        iv.prec, mp.prec = before
+        before = iv.prec, mp.prec
+        iv.prec = mp.prec = bits
+        try:
+            yield Mpmath()
+        finally:
+            iv.prec, mp.prec = before
