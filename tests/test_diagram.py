@@ -344,3 +344,95 @@ def test_an_expansion_needs_one_other_branch():
     event = first_pitchforks(rl.Strut(n=5), 1)[0]
     with pytest.raises(ValueError, match="order must be at most 6"):
         rl.expansion(event, 9)
+
+
+# --- what two adversaries found --------------------------------------------------------------------------------------
+
+
+def polynomial(text, **symmetry):
+    """A scalar model from its expression in u and lam, without bounds."""
+    import sympy
+
+    u, lam = sympy.symbols("u lam")
+    F = sympy.sympify(text, locals={"u": u, "lam": lam})
+    model = Scalar(*(sympy.lambdify((u, lam), f) for f in (F, sympy.diff(F, u), sympy.diff(F, lam))))
+    for name, value in symmetry.items():
+        setattr(model, name, value)
+    return model
+
+
+CASES = [
+    # model, window, guess, {load: solutions}
+    ("u*(u**2+lam*(lam-1))", (-1, 2), [0.0], {-0.5: 1, 0.5: 3, 1.5: 1}),  # sides end where they meet the trivial branch
+    ("u*(lam-1-1000*u**2)", (0, 2), [0.0], {0.5: 1, 1.5: 3}),  # steep: starts must be near
+    ("u*(lam-1-u**2)", (0, 1.0001), [0.0], {0.5: 1, 1.00005: 3}),  # at the edge of the window
+    ("u*(lam-1+0.5*u**2-625*u**4)", (0, 2), [0.0], {0.99995: 5, 1.5: 3}),  # a fold right after the pitchfork
+    ("100*u*(lam-1-(100*u)**2)", (0, 2), [0.0], {0.5: 1, 1.5: 3}),  # other units
+    ("100*u*(lam-1-100*u)", (0, 2), [0.0], {0.5: 2, 1.5: 2}),
+    ("(u-lam)*(u+2*lam)", (-1, 1), [-1.0], {-0.5: 2, 0.5: 2}),  # two sloped lines
+    ("(u-lam+3)*(u+2*lam-6)", (2, 4), [-1.0], {2.5: 2, 3.5: 2}),
+]
+
+
+@pytest.mark.parametrize(("text", "window", "guess", "counts"), CASES)
+def test_small_models_of_ones_own(text, window, guess, counts):
+    d = rl.diagram(polynomial(text), window, guess)
+    assert d.complete
+    assert {lam: d.count(lam) for lam in counts} == counts
+
+
+def test_a_start_on_a_side_branch():
+    """Past the pitchfork a model without bounds must not be led onto the trivial branch."""
+    model = polynomial("u*(lam-1-u**2)")
+    d = rl.diagram(model, (-1, 5), rl.equilibrium(model, 4.0, [3**0.5]))
+    assert [d.count(lam) for lam in (0.5, 2.0)] == [1, 3]
+    kinds = [row.kind for row in d.table if row.kind != "end"]
+    assert kinds == ["subcritical pitchfork"]  # the branch that opens upwards is the one of higher index
+    strut = rl.Strut(n=3)
+    for lam in (3.0, 8.0):
+        d = rl.diagram(strut, (0, 40), rl.equilibrium(strut, lam, lambda s: 1.5 * s))
+        assert d.complete
+        assert d.count(20.0) == 5
+
+
+def test_counts_at_points_and_next_to_special_loads():
+    strut = rl.Strut(n=3)
+    d = rl.diagram(strut, (0, 40))
+    for lam in {p.lam for b in d.branches for p in b.points[1:-1]}:
+        special = any(abs(lam - row.lam) < 1e-9 for row in d.table if row.kind != "end")
+        if lam < 25 and not special:  # beyond there are parasites
+            assert d.count(lam) == len(rl.all_equilibria(strut, lam)), lam
+    bent = rl.census(rl.Strut(n=3, u_hat=0.1), (0, 20), looks=3)
+    fold = min(row.lam for row in bent.table if row.kind == "fold")
+    for off in (-3e-4, -1e-4, -1e-5, -1e-6, 1e-6, 1e-4):
+        assert bent.count(fold + off) == (1 if off < 0 else 3), off
+
+
+def test_branch_points_next_to_each_other_are_told_apart_or_said():
+    from models import Struts
+
+    apart = rl.diagram(Struts(rl.Strut(n=1), rl.Strut(n=1, K=1 + 1e-4)), (0, 3), np.zeros(2))
+    assert apart.complete
+    assert apart.count(2.5) == 9
+    close = rl.diagram(Struts(rl.Strut(n=1), rl.Strut(n=1, K=1 + 1e-6)), (0, 3), np.zeros(2))
+    assert not close.complete
+    assert any("another branch point lies next to" in row.reason for row in close.table)
+
+
+def test_a_start_that_is_singular_is_said():
+    d = rl.diagram(polynomial("u*(lam-1-u**2)"), (1, 2), [0.0])
+    assert not d.complete
+    assert any("the start is singular" in row.reason for row in d.table)
+
+
+def test_images_on_the_branch_itself_are_not_counted_twice():
+    circle = polynomial("u**2+lam**2-1", symmetries=(np.negative,))
+    for lam in (0.1, 0.2, 0.3, 0.5):
+        d = rl.diagram(circle, (-2, 2), rl.equilibrium(circle, lam, [0.9]))
+        assert d.copies == [1]
+        assert d.count(0.21) == 2
+
+
+def test_the_default_start_is_the_unstressed_shape():
+    d = rl.diagram(rl.Strut(n=3, u_hat=3), (-30, 30))
+    assert d.count(0.0) == 1

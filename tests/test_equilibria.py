@@ -195,7 +195,7 @@ def test_samples_and_krawczyk_where_boxes_do_not_suffice():
     strut = rl.Strut(n=60)
     found = rl.all_equilibria(strut, 130.0, most=20)
     assert not found.certified
-    assert "20 boxes" in found.reason
+    assert "boxes did not suffice" in found.reason
     assert "Krawczyk" in found.method
     assert len(found) == 9
     assert all(p.index_verified for p in found)
@@ -306,3 +306,54 @@ def test_the_cost_of_a_cover_follows_the_equilibria():
     per_root = [cover(rl.Strut(n=8), lam, most=10**6) for lam in (150.0, 200.0, 256.0)]
     assert [len(c.roots) for c in per_root] == sorted(len(c.roots) for c in per_root)
     assert all(c.boxes < 6 * len(c.roots) + 400 for c in per_root)
+
+
+# --- what two adversaries found --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("strut", "lam", "count"),
+    [
+        (rl.Strut(n=50, phi0=3.0), 0.1, 1),
+        (rl.Strut(n=10, u_hat=30.0), 0.1, 1),
+        (rl.Strut(n=10, terms=(rl.end_torque(10.0),)), 0.1, 1),
+        (rl.Strut(n=10, u_hat=1e4), 0.0, 1),
+        (rl.Strut(n=3, u_hat=1e6), 20.0, 7),
+        (rl.Strut(n=2, phi0=-3.0123456789), 1e-30, 1),
+        (rl.Strut(n=2, phi0=-3.0123456789), 0.0, 1),
+        (rl.Strut(n=1), 1e4, 6367),
+    ],
+)
+def test_large_angles_and_the_seam_are_certified(strut, lam, count):
+    found = rl.all_equilibria(strut, lam)
+    assert found.certified, found.reason
+    assert len(found) == count
+
+
+def test_angles_that_floats_cannot_hold_are_not_certified():
+    assert rl.all_equilibria(rl.Strut(n=3, phi0=100.0), 20.0).certified
+    found = rl.all_equilibria(rl.Strut(n=3, phi0=1e12), 20.0)
+    assert not found.certified
+    assert "floats hold angles" in found.reason
+    assert max(p.remaining for p in found) > 1e-5
+
+
+@pytest.mark.parametrize(("n", "lam"), [(1, 1e7), (2, 1e5), (3, 1e3), (10, 1e300), (100, -1e300), (50, 5000.0)])
+def test_too_many_is_said_at_once(n, lam):
+    with pytest.raises(ArithmeticError, match="told apart"):
+        rl.all_equilibria(rl.Strut(n=n), lam)
+
+
+def test_boxes_are_not_overrun():
+    strut = rl.Strut(n=10)
+    near = float(rl.buckling_loads(strut, 1)[0])
+    assert "boxes did not suffice" in rl.all_equilibria(strut, near * 1.5, most=2).reason
+
+
+def test_threads_do_not_disturb_each_other():
+    from concurrent.futures import ThreadPoolExecutor
+
+    cases = [(10, 100.5), (3, 20.0), (30, 200.0), (8, 130.0)] * 3
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(lambda case: rl.all_equilibria(rl.Strut(n=case[0]), case[1]), cases))
+    assert all(one.certified for one in found)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import cheb2poly, chebvander
 from numpy.polynomial.polynomial import polyval
 
+from rodlab.analysis.beginning import STILL
 from rodlab.analysis.curve import Curve
 from rodlab.analysis.events import Event
 from rodlab.analysis.newton import NoConvergence
@@ -96,7 +97,8 @@ class _Sides:
     def __init__(self, curve: Curve, y: Array, v: Array, ends: list[Array]) -> None:
         self.curve, self.y, self.row = curve, y, curve.row(v)
         eps = [float(self.row @ (end - y)) for end in ends]
-        if any(abs(e) <= SLIM * curve.norm(np.append((end - y)[:-1], 0.0)) for e, end in zip(eps, ends, strict=True)):
+        moved = [curve.norm(np.append((end - y)[:-1], 0.0)) for end in ends]
+        if any(abs(e) <= max(SLIM * size, STILL) for e, size in zip(eps, moved, strict=True)):
             raise ValueError("event must be met on a branch other than the one expanded, which has no part along its null vector")
         self.known = {0.0: y} | dict(zip(eps, ends, strict=True))
         self.start = min(abs(e) for e in eps)

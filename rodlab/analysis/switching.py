@@ -12,19 +12,17 @@ from contextlib import suppress
 
 import numpy as np
 
-from rodlab.analysis.curve import Corrected, Curve, Segment
+from rodlab.analysis.beginning import LEAST, Beginning
+from rodlab.analysis.curve import Curve, Segment
 from rodlab.analysis.events import Event
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.analysis.reduced import Polynomial, Reduced
-from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.arrays import Array
 from rodlab.numerics.nullspace import NearNull, near_null
 
 FIRST = 0.05  # distance of a start from its branch point, in the length of the equations
-LEAST = 1e-6
 FIT = 1e-3  # misfit of the cubic polynomial that still tells the directions
-SHARE = 0.02  # of the window of loads: no start is farther from its branch point
-STILL = 1e-9  # unknowns that change by less are at rest
 SLIM = 0.05  # part of the null vectors on a half-branch along the load
 MOST = 3  # null vectors
 
@@ -54,7 +52,7 @@ def switch(event: Event, within: tuple[float, float] | None = None) -> list[Poin
     null = _null(curve, y, event)
     if null.right.shape[1] > MOST:
         raise ValueError(f"event must have at most {MOST} null vectors; it has {null.right.shape[1]}")
-    near = _Near(curve, y, event, within)
+    near = Beginning(curve, y, event, within)
     simple = _simple(curve, event, y, null)
     if simple:
         return [near.start(p) for p in simple]
@@ -117,78 +115,6 @@ def _aside(curve: Curve, y: Array, across: Array, parent: Array, rho: float) -> 
         return None
     t = curve.tangent(far.y, far.y - y)
     return Point(curve.equations, float(far.y[-1]), far.y[:-1].copy(), far.history, far.remaining, t, "checked")
-
-
-class _Near:
-    """The part of a half-branch before its start, looked at; a nearer start where something happens on it."""
-
-    def __init__(self, curve: Curve, y: Array, event: Event, within: tuple[float, float] | None) -> None:
-        self.curve, self.y, self.within = curve, y, within
-        self.exchanged = self._exchanged(event)
-
-    def _exchanged(self, event: Event) -> dict[bool, int]:
-        """The index that a half-branch to higher loads (True) or lower ones has: that of the followed branch on the other side.
-
-        Exchange of stability [Crandall and Rabinowitz 1973], where one eigenvalue crosses zero as the load grows; else unknown.
-        """
-        fence = event.fence
-        assert fence is not None
-        ends = sorted((fence.a, fence.b), key=lambda end: float(end[-1]))
-        low, high = (self.curve.index(end) for end in ends)
-        passes = ends[0][-1] < self.y[-1] < ends[1][-1]
-        if event.multiplicity != 1 or not passes or low is None or high is None or abs(low - high) != 1:
-            return {}
-        return {True: low, False: high}
-
-    def start(self, p: Point) -> Point:
-        """The start, or one nearer to the branch point. Raises `NoConvergence` where none is near enough."""
-        far, first = np.append(p.u, p.lam), p
-        while self.curve.norm(far - self.y) >= LEAST:
-            try:
-                half, quarter = self._part(far, 0.5), self._part(far, 0.25)
-            except NoConvergence:
-                half = None
-            if half is not None and self._inside(far) and self._plain(far, half.y, quarter.y):
-                return p
-            try:
-                found = self._part(far, 0.25) if half is None else quarter
-            except NoConvergence:
-                found = None
-            if found is None:
-                break
-            far = found.y
-            t = self.curve.tangent(far, far - self.y)
-            p = Point(p.equations, float(far[-1]), far[:-1].copy(), found.history, found.remaining, t, "checked")
-        at = f"lam = {self.y[-1]:.9g}"
-        raise NoConvergence(f"what leaves at {at} is singular again, or leaves the window, next to it", first.newton)
-
-    def _part(self, far: Array, part: float) -> Corrected:
-        """The solution at a part of the way, across the way."""
-        away = np.append(far[:-1] - self.y[:-1], 0.0)
-        size = self.curve.norm(away)
-        if size <= STILL * max(1.0, self.curve.norm(np.append(far[:-1], 0.0))):  # nothing but the load changes
-            away, size = far - self.y, self.curve.norm(far - self.y)
-        guess = self.y + part * (far - self.y)
-        return self.curve.correct(guess, self.curve.row(away / size), limit=12)
-
-    def _inside(self, far: Array) -> bool:
-        """True within the window, and where no window is given."""
-        if self.within is None:
-            return True
-        low, high = self.within
-        return low <= far[-1] <= high and abs(float(far[-1] - self.y[-1])) <= SHARE * (high - low)
-
-    def _plain(self, far: Array, half: Array, quarter: Array) -> bool:
-        """No change of index on the way, and a load that the parabola through the ends and the middle tells at a quarter."""
-        found = {self.curve.index(y) for y in (far, half, quarter)}
-        if len(found) > 1 or self.exchanged.get(bool(far[-1] > self.y[-1]), None) not in (None, *found):
-            return False
-        d, e, f = (float(y[-1] - self.y[-1]) for y in (far, half, quarter))
-        bend, slope = 2 * d - 4 * e, 4 * e - d
-        noise = 64 * EPS * (abs(float(self.y[-1])) + abs(d))
-        told = abs(f - (bend / 16 + slope / 4)) <= 0.05 * max(abs(d), abs(e)) + noise
-        turn = -slope / (2 * bend) if bend else np.inf
-        return told and not (0 < turn < 1 and abs(bend) * turn**2 > noise)
 
 
 def _in_order(starts: list[Point], rho: float) -> list[Point]:

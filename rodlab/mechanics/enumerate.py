@@ -76,7 +76,7 @@ class _Search:
         if self.map.odd:  # -a is the mirror image of a
             low, high = self._middle(), two_pi / 2
         else:
-            cut = next((a for a in BEGIN if not self.numbers.has_integer(self._turns(self.map.angle(number(a))))), BEGIN[0])
+            cut = next((a for a in BEGIN if not self.numbers.has_integer(self._turns(self.map.end(number(a))[0]))), BEGIN[0])
             low, high = number(cut), number(cut) + two_pi
         ends = [low + (high - low) * i / FIRST for i in range(FIRST)] + [high]
         open_: list[tuple[Any, Any]] = []
@@ -123,7 +123,7 @@ class _Search:
 
     def _whole_turns(self, low: Any, high: Any) -> range | None:
         """The numbers of turns that phi_0 passes between two ends; None where one of them is too near a whole turn."""
-        below, above = (self.numbers.floor(self._turns(self.map.angle(end))) for end in (low, high))
+        below, above = (self.numbers.floor(self._turns(self.map.end(end)[0])) for end in (low, high))
         if below is None or above is None:
             return None
         return range(min(below, above) + 1, max(below, above) + 1)

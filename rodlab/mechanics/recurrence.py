@@ -61,14 +61,6 @@ class Recurrence:
         self.phi0 = number(joints.phi0)
         self.odd = not (tau or joints.curved or joints.phi0)
 
-    def angle(self, a: Any) -> Any:
-        """phi_0(a)."""
-        phi, M = a, self.tau
-        for P, k, beta in zip(self.P, self.k, self.beta, strict=True):
-            M = M + P * self.numbers.sin_cos(phi)[0]
-            phi = phi - beta - M / k
-        return phi
-
     def end(self, a: Any) -> tuple[Any, Any]:
         """phi_0 and psi_0 alone, at a number a or at an array of them."""
         phi, psi, M, dM = a, a * 0 + 1, self.tau, 0

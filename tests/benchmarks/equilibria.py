@@ -10,8 +10,8 @@ import time
 import numpy as np
 
 import rodlab as rl
-from rodlab.mechanics.enumerate import SPARE, cover
-from rodlab.mechanics.recurrence import bits
+from rodlab.mechanics.enumerate import cover
+from rodlab.mechanics.recurrence import precision
 from rodlab.numerics.balls import balls
 
 
@@ -30,7 +30,7 @@ def slope(x, y):
 
 def least(strut, lam):
     """Seconds of 2 n sin_cos of a ball, at the precision of the proof."""
-    with balls(SPARE + 2 * int(bits(strut, lam))) as numbers:
+    with balls(precision(strut, lam)) as numbers:
         x = numbers.number(1.0, 1e-3)
         return seconds(lambda: [numbers.sin_cos(x) for _ in range(2 * strut.n)], 5)[0]
 
