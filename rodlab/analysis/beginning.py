@@ -22,7 +22,8 @@ class Beginning:
     """The part of a half-branch before its start, looked at; a nearer start where something happens on it."""
 
     def __init__(self, curve: Curve, y: Array, event: Event, within: tuple[float, float] | None) -> None:
-        self.curve, self.y, self.within = curve, y, within
+        self.curve, self.y, self.within, self.error = curve, y, within, event.error
+        self.crowded = False  # another branch point lies next to this one
         self.exchanged = self._exchanged(event)
 
     def _exchanged(self, event: Event) -> dict[bool, int]:
@@ -37,16 +38,16 @@ class Beginning:
         passes = ends[0][-1] < self.y[-1] < ends[1][-1]
         if event.multiplicity != 1 or not passes or low is None or high is None:
             return {}
-        if abs(low - high) > 1 and self.curve.has_index(self.y):
-            raise NoConvergence(f"another branch point lies next to the one at lam = {self.y[-1]:.12g}", ())
-        if low == high:
-            return {}
-        return {True: low, False: high}
+        self.crowded = abs(low - high) > 1 and self.curve.has_index(self.y)
+        return {True: low, False: high} if abs(low - high) == 1 else {}
 
     def start(self, p: Point) -> Point:
-        """The start, or one nearer to the branch point. Raises `NoConvergence` where none is near enough."""
-        history, far = p.newton, np.append(p.u, p.lam)
-        while self.curve.norm(far - self.y) >= LEAST:
+        """The start, or one nearer to the branch point; where none is near enough the start itself.
+
+        Within a window `NoConvergence` then: what is between would be missed.
+        """
+        first, far = p, np.append(p.u, p.lam)
+        while not self.crowded and self.curve.norm(far - self.y) >= LEAST:
             half, quarter = self._part(far, 0.5), self._part(far, 0.25)
             if half is not None and quarter is not None and self._inside(far) and self._plain(far, half.y, quarter.y):
                 return p
@@ -55,8 +56,12 @@ class Beginning:
             far = quarter.y
             t = self.curve.tangent(far, far - self.y)
             p = Point(p.equations, float(far[-1]), far[:-1].copy(), quarter.history, quarter.remaining, t, "checked")
-        at = f"lam = {self.y[-1]:.9g}"
-        raise NoConvergence(f"what leaves at {at} is singular again, or leaves the window, next to it", history)
+        if self.within is None:
+            return first
+        at = f"lam = {self.y[-1]:.12g}"
+        if self.crowded:
+            raise NoConvergence(f"another branch point lies next to the one at {at}", first.newton)
+        raise NoConvergence(f"what leaves at {at} is singular again, or leaves the window, next to it", first.newton)
 
     def _part(self, far: Array, part: float) -> Corrected | None:
         """The solution at a part of the way, across the way; None where there is none."""
@@ -84,7 +89,7 @@ class Beginning:
             return False
         d, e, f = (float(y[-1] - self.y[-1]) for y in (far, half, quarter))
         bend, slope = 2 * d - 4 * e, 4 * e - d
-        noise = 64 * EPS * (abs(float(self.y[-1])) + abs(d))
+        noise = 64 * EPS * (abs(float(self.y[-1])) + abs(d)) + 4 * self.error
         wrong = abs(f - (bend / 16 + slope / 4))
         turn = -slope / (2 * bend) if bend else np.inf
         turns = 0 < turn < 1 and abs(slope) > 20 * (wrong + noise)  # by more than terms of the third and fourth power explain

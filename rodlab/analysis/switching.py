@@ -30,8 +30,9 @@ MOST = 3  # null vectors
 def switch(event: Event, within: tuple[float, float] | None = None) -> list[Point]:
     """One start for each half-branch that leaves the followed branch at a branch point; each has its tangent, away from it.
 
-    Starts are solutions a small distance off, verified to have left. Null spaces up to dimension 3. No fold or branch point
-    lies between, by looks at a half and a quarter of the way, and they lie in the window `within` of loads; else they are nearer.
+    Starts are solutions a small distance off, verified to have left. Null spaces up to dimension 3. Where a fold or branch point
+    lies between, by looks at a half and a quarter of the way, they are nearer. With a window `within` of loads they lie in it, and
+    looks that cannot tell raise `NoConvergence`.
     Raises `ValueError` unless the event is a branch point; `NoConvergence` where the half-branches found cannot be all.
 
     >>> from rodlab.analysis.equilibrium import equilibrium
