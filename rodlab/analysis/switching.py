@@ -31,8 +31,8 @@ def switch(event: Event, within: tuple[float, float] | None = None) -> list[Poin
     """One start for each half-branch that leaves the followed branch at a branch point; each has its tangent, away from it.
 
     Starts are solutions a small distance off, verified to have left. Null spaces up to dimension 3. Where a fold or branch point
-    lies between, by looks at a half and a quarter of the way, they are nearer. With a window `within` of loads they lie in it, and
-    looks that cannot tell raise `NoConvergence`.
+    lies between, by looks at a half and a quarter of the way, they are nearer. With a window `within` of loads they lie in it,
+    and looks that cannot tell raise `NoConvergence`.
     Raises `ValueError` unless the event is a branch point; `NoConvergence` where the half-branches found cannot be all.
 
     >>> from rodlab.analysis.equilibrium import equilibrium
