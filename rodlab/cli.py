@@ -107,7 +107,7 @@ def follow(chosen: argparse.Namespace) -> int:
     start = time.perf_counter()
     if chosen.out:
         place(chosen.out)  # a wrong name is said before the work, not after it
-    asked = {**_model(chosen), "u_hat": _number_or_text(chosen.u_hat)}
+    asked = _model(chosen)
     model, branch = followed(
         asked, chosen.start, chosen.to, mode=chosen.mode, guess=chosen.guess,
         step=chosen.step, max_points=chosen.max_points, watch=_watched("points", asked.get("n", 100)),
@@ -126,27 +126,24 @@ def follow(chosen: argparse.Namespace) -> int:
 
 def diagram(chosen: argparse.Namespace) -> int:
     """rodlab diagram"""
-    from pathlib import Path
-
     from rodlab.analysis.diagram import diagram
-    from rodlab.files import write_whole
-    from rodlab.lab.census import census
     from rodlab.lab.charts import diagram_tables, of_diagram
     from rodlab.lab.store import as_json, framed
     from rodlab.mechanics.recipe import build
 
     start = time.perf_counter()
-    asked = {**_model(chosen), "u_hat": _number_or_text(chosen.u_hat)}
+    asked = _model(chosen)
     model: Any = build(asked)
-    path = _picture_path(chosen.out)
-    draw = census if chosen.detached else diagram
+    _check_picture(chosen.out)
+    draw: Any = diagram
+    if chosen.detached:
+        from rodlab.lab.census import census as draw
     found = draw(model, (chosen.start, chosen.to), step=chosen.step, watch=_watched("points", 10**6))
     written = []
-    if path is not None:
+    if chosen.out is not None:
         from rodlab.lab.diagram_picture import diagram_picture
-        from rodlab.lab.picture import drawn
 
-        written = [str(write_whole(Path(path), drawn(diagram_picture(found, chosen.y), path)))]
+        written = [_drawn(diagram_picture(found, chosen.y), chosen.out)]
     seconds = time.perf_counter() - start
     if chosen.json:
         asked |= {"from": chosen.start, "to": chosen.to}
@@ -159,29 +156,25 @@ def diagram(chosen: argparse.Namespace) -> int:
 
 def equilibria(chosen: argparse.Namespace) -> int:
     """rodlab equilibria"""
-    from pathlib import Path
-
-    from rodlab.files import write_whole
     from rodlab.lab.charts import equilibria_table, of_equilibria
     from rodlab.lab.equilibria import all_equilibria
     from rodlab.lab.store import as_json, framed
     from rodlab.mechanics.recipe import build
 
     start = time.perf_counter()
-    asked = {**_model(chosen), "u_hat": _number_or_text(chosen.u_hat)}
+    asked = _model(chosen)
     strut: Any = build(asked)
-    path = _picture_path(chosen.out)
-    if path is not None:
+    _check_picture(chosen.out)
+    if chosen.out is not None:
         from rodlab.lab.standard_map import parameter
 
         parameter(strut, chosen.lam)
     found = all_equilibria(strut, chosen.lam, certify=chosen.certify is not False, engine=chosen.engine)
     written = []
-    if path is not None:
+    if chosen.out is not None:
         from rodlab.lab.map_picture import map_picture
-        from rodlab.lab.picture import drawn
 
-        written = [str(write_whole(Path(path), drawn(map_picture(found), path)))]
+        written = [_drawn(map_picture(found), chosen.out)]
     if chosen.json:
         said = of_equilibria(found, connected=chosen.connected)
         print(as_json(framed("equilibria", time.perf_counter() - start, {**asked, "lam": chosen.lam, **said, "files": written})))
@@ -248,12 +241,11 @@ def _parser() -> argparse.ArgumentParser:
     verb.add_argument("--out", default="rodlab-tour", metavar="DIR", help="folder for pictures and data (default: %(default)s)")
 
     verb = _verb(verbs, buckling, "buckling loads of a straight strut or rod, with error bounds")
-    _model_options(verb, 1000)
+    _model_options(verb, 1000, straight=True)
     verb.add_argument("--modes", type=int, help="how many loads (default: 3)")
 
     verb = _verb(verbs, follow, "follow a branch of a strut or rod to a load, with its folds and branch points")
     _model_options(verb, 100)
-    verb.add_argument("--u-hat", default="0", help="unstressed curvature: a number or an expression in s (default: 0)")
     verb.add_argument("--from", dest="start", type=float, default=0.0, metavar="LAM", help="load to start at (default: 0)")
     verb.add_argument("--to", type=float, required=True, metavar="LAM", help="load to end at")
     verb.add_argument("--mode", type=int, help="the branch that buckles in this mode, from its branch point")
@@ -264,7 +256,6 @@ def _parser() -> argparse.ArgumentParser:
 
     verb = _verb(verbs, diagram, "every branch connected to the unstressed shape in a window of loads, and all special points")
     _model_options(verb, 100)
-    verb.add_argument("--u-hat", default="0", help="unstressed curvature: a number or an expression in s (default: 0)")
     verb.add_argument("--from", dest="start", type=float, default=0.0, metavar="LAM", help="lower edge (default: 0)")
     verb.add_argument("--to", type=float, required=True, metavar="LAM", help="upper edge of the window")
     verb.add_argument("--detached", action="store_true", help="also the branches that are not connected")
@@ -274,7 +265,6 @@ def _parser() -> argparse.ArgumentParser:
 
     verb = _verb(verbs, equilibria, "every equilibrium of a strut at a load, certified to be all")
     _model_options(verb, 5, models=("strut",))
-    verb.add_argument("--u-hat", default="0", help="unstressed curvature: a number or an expression in s (default: 0)")
     verb.add_argument("--lam", type=float, required=True, help="the load")
     certify = argparse.BooleanOptionalAction
     verb.add_argument("--certify", action=certify, help="prove that these are all (default); given, it is a check that may fail")
@@ -302,17 +292,23 @@ def _model(chosen: argparse.Namespace) -> dict[str, Any]:
             recipe[name] = value
     if chosen.model == "strut":
         recipe = {"n": chosen.joints, "rule": "end", **recipe}
+    if chosen.u_hat is not None:
+        recipe["u_hat"] = _number_or_text(chosen.u_hat)
     return recipe
 
 
-def _model_options(verb: argparse.ArgumentParser, n: int, models: Sequence[str] = ("strut", "rod")) -> None:
+def _model_options(
+    verb: argparse.ArgumentParser, n: int, models: Sequence[str] = ("strut", "rod"), *, straight: bool = False
+) -> None:
     verb.add_argument("--model", choices=models, default="strut", help="the model (default: %(default)s)")
     verb.add_argument("-n", type=int, help=f"of a strut: number of joints (default: {n})")
     verb.set_defaults(joints=n)
     verb.add_argument("--rule", help="of a strut: end or trapezoid (default: end)")
     verb.add_argument("--breaks", type=float, nargs="+", default=[], metavar="S", help="where K or u_hat jumps")
     verb.add_argument("--K", default="1", help='bending stiffness: a number or an expression in s, "1+s" (default: 1)')
-    verb.set_defaults(degree=None, mesh=None, tol=None)
+    verb.set_defaults(degree=None, mesh=None, tol=None, u_hat=None)
+    if not straight:
+        verb.add_argument("--u-hat", default="0", help="unstressed curvature: a number or an expression in s (default: 0)")
     if "rod" not in models:
         return
     verb.add_argument("--degree", type=int, help="of a rod: degree of the collocated polynomials (default: 6)")
@@ -327,13 +323,23 @@ def _verb(verbs: Any, run: Any, what: str) -> argparse.ArgumentParser:
     return parser
 
 
-def _picture_path(out: str | None) -> str | None:
-    """The file to draw to; a wrong name is said before the work, not after it."""
+def _check_picture(out: str | None) -> None:
+    """A wrong name of a picture is said before the work, not after it; without one nothing that draws is imported."""
+    if out is None:
+        return
     from rodlab.lab.picture import FORMATS
 
-    if out is not None and not out.endswith(FORMATS):
+    if not out.endswith(FORMATS):
         raise ValueError(f"out must end in {', '.join(FORMATS)}; it is {out!r}")
-    return out
+
+
+def _drawn(figure: Any, out: str) -> str:
+    from pathlib import Path
+
+    from rodlab.files import write_whole
+    from rodlab.lab.picture import drawn
+
+    return str(write_whole(Path(out), drawn(figure, out)))
 
 
 def _number_or_text(text: str) -> float | str:

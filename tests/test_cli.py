@@ -410,6 +410,13 @@ def test_help_brings_nothing_heavy():
     assert not imported_by("import rodlab.cli\ntry: rodlab.cli.main(['--help'])\nexcept SystemExit: pass") & HEAVY
 
 
+@pytest.mark.parametrize("verb", ["['diagram', '-n', '3', '--to', '5']", "['equilibria', '--lam', '60']"])
+def test_without_a_picture_nothing_draws(verb):
+    seen = imported_by(f"import rodlab.cli; rodlab.cli.main({verb})")
+    assert "numpy" in seen
+    assert not seen & {"sympy", "matplotlib"}
+
+
 @pytest.mark.parametrize("rule", ["end", "trapezoid"])
 def test_buckling_never_imports_sympy_or_matplotlib(rule):
     for K in ("1", "1 + s"):

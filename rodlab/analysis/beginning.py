@@ -21,21 +21,23 @@ STILL = 1e-9  # unknowns that change by less are at rest
 class Beginning:
     """The part of a half-branch before its start, looked at; a nearer start where something happens on it."""
 
-    def __init__(self, curve: Curve, y: Array, event: Event, within: tuple[float, float] | None) -> None:
+    def __init__(
+        self, curve: Curve, y: Array, event: Event, beside: tuple[int | None, int | None],
+        within: tuple[float, float] | None,
+    ) -> None:  # fmt: skip
         self.curve, self.y, self.within, self.error = curve, y, within, event.error
         self.crowded = False  # another branch point lies next to this one
-        self.exchanged = self._exchanged(event)
+        self.exchanged = self._exchanged(event, beside)
 
-    def _exchanged(self, event: Event) -> dict[bool, int]:
+    def _exchanged(self, event: Event, beside: tuple[int | None, int | None]) -> dict[bool, int]:
         """The index that a half-branch to higher loads (True) or lower ones has: that of the followed branch on the other side.
 
         Exchange of stability [Crandall and Rabinowitz 1973], where one eigenvalue crosses zero as the load grows; else unknown.
         """
         fence = event.fence
         assert fence is not None
-        ends = sorted((fence.a, fence.b), key=lambda end: float(end[-1]))
-        low, high = (self.curve.index(end) for end in ends)
-        passes = ends[0][-1] < self.y[-1] < ends[1][-1]
+        low, high = beside if fence.a[-1] < fence.b[-1] else beside[::-1]
+        passes = (fence.a[-1] - self.y[-1]) * (fence.b[-1] - self.y[-1]) < 0
         if event.multiplicity != 1 or not passes or low is None or high is None:
             return {}
         self.crowded = abs(low - high) > 1 and self.curve.has_index(self.y)

@@ -135,8 +135,7 @@ def diagram(
     """
     low, high = window_of(lam)
     given = start if isinstance(start, (tuple, list)) and start and isinstance(start[0], Point) else [start]
-    rest = min(max(low, 0.0), high)
-    points = [p if isinstance(p, Point) else equilibrium(model, rest if p is None else low, p) for p in given]
+    points = [begun(model, (low, high), p) for p in given]
     for p in points:
         if not low <= p.lam <= high:
             raise ValueError(f"start must lie in the window, {low:g} to {high:g}; its load is {p.lam:g}")
@@ -154,6 +153,14 @@ def window_of(lam: Any) -> tuple[float, float]:
     return low, high
 
 
+def begun(model: Equations, window: tuple[float, float], start: Any) -> Point:
+    """The point of a start: itself, or the solution from a guess at the lower edge, from none at the load nearest zero."""
+    if isinstance(start, Point):
+        return start
+    low, high = window
+    return equilibrium(model, min(max(low, 0.0), high) if start is None else low, start)
+
+
 @dataclass
 class _Crossing:
     """A branch point that was met: on which branch, and what leaves it."""
@@ -166,6 +173,8 @@ class _Crossing:
 
 
 class _Explorer:
+    """A diagram in the making: branches followed, branch points met, those not yet switched at last."""
+
     def __init__(self, window: tuple[float, float], most: int, options: dict[str, Any]) -> None:
         self.window, self.most, self.options = window, most, options
         self.branches: list[Branch] = []
@@ -216,8 +225,7 @@ class _Explorer:
     def _add(self, branch: Branch) -> int:
         self.branches.append(branch)
         self.components.append(self.component)
-        located = all(event.converged for event in branch.events)
-        self.complete &= branch.completed and located and not branch.reason.startswith("max_points")
+        self.complete &= all(event.converged for event in branch.events) and not branch.reason.startswith("max_points")
         return len(self.branches) - 1
 
     def _known(self, p: Point) -> int | None:
@@ -240,9 +248,6 @@ class _Explorer:
         low, high = self.window
         for start in crossing.starts:
             number = self._known(start)
-            if number is None and not low <= start.lam <= high:
-                crossing.reason = "what leaves here leaves the window at once"
-                continue
             if number is None and len(self.branches) >= self.most:
                 crossing.reason, self.complete = f"most, {self.most} branches, reached", False
                 return

@@ -15,7 +15,7 @@ from rodlab.analysis.curve import Curve
 from rodlab.analysis.events import Event, SingularPoints, Zero, branch_point, finders, fold
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
-from rodlab.analysis.stops import Stops, Within, inside_of, passages, passed, piece, rises
+from rodlab.analysis.stops import Stops, Within, inside_of, passages, passed, piece, rises, straddles
 from rodlab.numerics.arrays import Array, number, whole
 
 
@@ -111,8 +111,8 @@ class Branch:
             segment = piece(a, b)
             inner = [part for part in passages(segment, lam) if part < 1]
             if rises(segment):  # then it passes the load once or not at all, whatever its cubic does
-                inner = inner[:1] or [0.5] if (a.lam - lam) * (b.lam - lam) < 0 else []
-            found += [passed(Curve(b.equations), segment, part, lam, b.accepted) for part in inner]
+                inner = inner[:1] or [0.5] if straddles(segment, lam) else []
+            found += [passed(Curve(b.equations), segment, part, lam, b.accepted)[1] for part in inner]
             found += [b] if b.lam == lam else []
         return found
 

@@ -36,9 +36,10 @@ def images(p: Point) -> list[Point]:
 def symmetric(p: Point) -> Point:
     """The same solution, exactly its own image under every symmetry of which it is one up to rounding."""
     for g in getattr(p.equations, "symmetries", ()):
-        if same(p, _mapped(p, g), ROUNDING):
-            t = None if p.tangent is None else np.append((p.tangent[:-1] + g(p.tangent[:-1])) / 2, p.tangent[-1])
-            p = replace(p, u=np.asarray((p.u + g(p.u)) / 2), tangent=t)
+        q = _mapped(p, g)
+        if same(p, q, ROUNDING):
+            t = None if p.tangent is None or q.tangent is None else (p.tangent + q.tangent) / 2
+            p = replace(p, u=(p.u + q.u) / 2, tangent=t)
     return p
 
 

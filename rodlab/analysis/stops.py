@@ -6,12 +6,11 @@ from typing import Any
 import numpy as np
 
 from rodlab.analysis.continuation import Step, Walk, carried
-from rodlab.analysis.curve import Curve, Segment
+from rodlab.analysis.curve import Corrected, Curve, Segment
 from rodlab.analysis.equilibrium import on_its_mesh
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.analysis.touching import root
-from rodlab.numerics.arrays import Array
 from rodlab.numerics.inertia import Inertia
 
 Within = Mapping[str, tuple[float, float]] | Callable[[Point], Any] | None
@@ -35,6 +34,11 @@ def rises(segment: Segment) -> bool:
     """True when the load changes one way at both ends, as it does between them."""
     way = float(segment.b[-1] - segment.a[-1])
     return all(way * segment.length * float(slope[-1]) >= 0 for slope in segment.slopes) and way != 0
+
+
+def straddles(segment: Segment, lam: float) -> bool:
+    """True for a load between those of its ends."""
+    return bool((segment.a[-1] - lam) * (segment.b[-1] - lam) < 0)
 
 
 def passages(segment: Segment, lam: float) -> list[float]:
@@ -64,28 +68,27 @@ def at_load(curve: Curve, segment: Segment, part: float, lam: float, accepted: s
     return on_its_mesh(Point(curve.equations, lam, u, found.history, found.remaining, t, accepted, known))
 
 
-def passed(curve: Curve, segment: Segment, part: float, lam: float, accepted: str) -> Point:
-    """The same, where a fold or branch point next to it hides the load: across the branch instead, between both ends."""
+def passed(
+    curve: Curve, segment: Segment, part: float, lam: float, accepted: str, known: Inertia | None = None
+) -> tuple[float, Point]:
+    """The same with its part; by solutions across the branch where a fold or branch point hides a load between the ends.
+
+    Raises `NoConvergence` where only the cubic passes the load.
+    """
     try:
-        return at_load(curve, segment, part, lam, accepted)
+        return part, at_load(curve, segment, part, lam, accepted, known)
     except NoConvergence:
-        if not (segment.a[-1] - lam) * (segment.b[-1] - lam) < 0:
+        if not straddles(segment, lam):
             raise
-        exact, y = by_arclength(curve, segment, lam)
-        t = curve.tangent(y, segment.derivative(exact * segment.length))
-        return Point(curve.equations, lam, y[:-1].copy(), tangent=t, accepted=accepted)
 
+    def across(x: float) -> Corrected:
+        return curve.correct(segment.at(x * segment.length), segment.row)
 
-def by_arclength(curve: Curve, segment: Segment, load: float) -> tuple[float, Array]:
-    """Where on a segment a load is passed, by solutions across the branch: good next to a fold too."""
-
-    def off(x: float) -> float:
-        return float(curve.correct(segment.at(x * segment.length), segment.row).y[-1]) - load
-
-    part = root(off, 0.0, 1.0)
-    y = curve.correct(segment.at(part * segment.length), segment.row).y
-    y[-1] = load
-    return part, y
+    part = root(lambda x: float(across(x).y[-1]) - lam, 0.0, 1.0)
+    found = across(part)
+    y = np.append(found.y[:-1], lam)
+    t = curve.tangent(y, segment.derivative(part * segment.length))
+    return part, Point(curve.equations, lam, found.y[:-1].copy(), found.history, found.remaining, t, accepted)
 
 
 def inside_of(within: Within) -> Callable[[Point], bool]:
@@ -138,13 +141,13 @@ class Stops:
                 if self.steps == 1 and part < BEGUN and load == float(self.start.y[-1]):
                     continue  # the first point itself, moved by rounding
                 try:
-                    yield part, at_load(curve, segment, part, load, step.point.accepted, known), reason
-                    break
-                except NoConvergence:  # a fold in the same place; or only the cubic passes this load
-                    if (segment.a[-1] - load) * (segment.b[-1] - load) < 0:
-                        exact, y = by_arclength(curve, segment, load)
-                        yield exact, self._point(segment, exact, step, y), reason
-                        break
+                    exact, point = passed(curve, segment, part, load, step.point.accepted, known)
+                except NoConvergence:
+                    if straddles(segment, load):
+                        raise
+                    continue
+                yield exact, point, reason
+                break
 
     def _closing(self, step: Step) -> Iterator[tuple[float, Point, str]]:
         segment, curve, old = step.segment, self.walk.curve, self.equations
@@ -185,9 +188,9 @@ class Stops:
         y = segment.at(part * segment.length)
         return Point(self.walk.curve.equations, float(y[-1]), y[:-1])
 
-    def _point(self, segment: Segment, part: float, step: Step, y: Array | None = None) -> Point:
+    def _point(self, segment: Segment, part: float, step: Step) -> Point:
         found = self.walk.curve.correct(segment.at(part * segment.length), segment.row)
-        y = found.y if y is None else y
+        y = found.y
         t = self.walk.curve.tangent(y, segment.derivative(part * segment.length))
         return Point(
             self.walk.curve.equations, float(y[-1]), y[:-1].copy(), found.history, found.remaining,

@@ -53,8 +53,9 @@ def switch(event: Event, within: tuple[float, float] | None = None) -> list[Poin
     null = _null(curve, y, event)
     if null.right.shape[1] > MOST:
         raise ValueError(f"event must have at most {MOST} null vectors; it has {null.right.shape[1]}")
-    near = Beginning(curve, y, event, within)
-    simple = _simple(curve, event, y, null)
+    beside = curve.index(event.fence.a), curve.index(event.fence.b)
+    near = Beginning(curve, y, event, beside, within)
+    simple = _simple(curve, event, y, null, beside)
     if simple:
         return [near.start(p) for p in simple]
     reduced = Reduced(curve, y, null)
@@ -71,7 +72,7 @@ def switch(event: Event, within: tuple[float, float] | None = None) -> list[Poin
     raise NoConvergence(f"no half-branch could be told at lam = {event.lam:.9g}: {failure}", ())
 
 
-def _simple(curve: Curve, event: Event, y: Array, null: NearNull) -> list[Point]:
+def _simple(curve: Curve, event: Event, y: Array, null: NearNull, beside: tuple[int | None, int | None]) -> list[Point]:
     """The two half-branches where a single eigenvalue crosses zero: one other curve passes [Crandall and Rabinowitz 1971].
 
     Each is found across the null direction at two distances, and must have left the followed branch; else none is returned,
@@ -79,7 +80,7 @@ def _simple(curve: Curve, event: Event, y: Array, null: NearNull) -> list[Point]
     """
     fence = event.fence
     assert fence is not None
-    before, after = curve.index(fence.a), curve.index(fence.b)
+    before, after = beside
     if null.right.shape[1] != 1 or before is None or after is None or abs(before - after) != 1:
         return []
     parent = fence.derivative(float(fence.row @ (y - fence.a)))

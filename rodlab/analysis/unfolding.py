@@ -8,12 +8,15 @@
 Both are Equations, so that all verbs work on them. A model with a mesh stays on that of the event. Symmetric Jacobians: psi = v.
 """
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 from scipy.sparse import block_array, csr_array
 
 from rodlab.analysis.curve import Curve
+from rodlab.analysis.derivatives import central
 from rodlab.analysis.equations import jacobian
 from rodlab.analysis.equilibrium import equilibrium
 from rodlab.analysis.events import Event
@@ -53,11 +56,20 @@ class _Unfolded:
     def _curving(self, u: Array, v: Array, lam: float, beta: float) -> Any:
         """d(J v)/du = dJ in the direction v, as J is the derivative of a gradient."""
         e = STEP / float(np.abs(v).max())
-        return _fourth(lambda x: _matrix(self._J(u + x * v, lam, beta)), e)
+        return central(lambda x: _matrix(self._J(u + x * v, lam, beta)), e)
 
-    def _along(self, function: Any, at: float) -> Any:
+    def _rate(self, function: Any, at: float) -> Any:
         """Derivative of a function of one number."""
-        return _fourth(lambda x: function(at + x), STEP * max(1.0, abs(at)))
+        return central(lambda x: function(at + x), STEP * max(1.0, abs(at)))
+
+    def _own(self, place: Callable[[Array, float], tuple[float, float]]) -> dict[str, Any]:
+        """The model's measures, of unknowns whose load and parameter `place` tells."""
+
+        def measured(name: str, U: Array, x: float) -> float:
+            lam, beta = place(U, x)
+            return float(self.family.at(beta).measures[name](U[: self.n], lam))
+
+        return {name: partial(measured, name) for name in getattr(self.model, "measures", {})}
 
     def inner(self, a: Array, b: Array) -> float:
         """That of the model for u, with a tenth of that of v, and the numbers."""
@@ -83,7 +95,7 @@ class Folds(_Unfolded):
         """By blocks."""
         u, v, beta = U[: self.n], U[self.n : -1], float(U[-1])
         J, none = _matrix(self._J(u, lam, beta)), np.zeros((1, self.n))
-        rate = self._along(lambda x: self._J(u, lam, x) @ v, beta)
+        rate = self._rate(lambda x: self._J(u, lam, x) @ v, beta)
         return _blocks(
             [[J, None, self.family.d_value(u, lam, beta)[:, None]],
              [self._curving(u, v, lam, beta), J, rate[:, None]],
@@ -93,14 +105,12 @@ class Folds(_Unfolded):
     def d_lam(self, U: Array, lam: float) -> Array:
         """dF/dlam and that of F_u v."""
         u, v, beta = U[: self.n], U[self.n : -1], float(U[-1])
-        return np.concatenate([self._F_lam(u, lam, beta), self._along(lambda x: self._J(u, x, beta) @ v, lam), [0.0]])
+        return np.concatenate([self._F_lam(u, lam, beta), self._rate(lambda x: self._J(u, x, beta) @ v, lam), [0.0]])
 
     @property
     def measures(self) -> dict[str, Any]:
         """The parameter, and the model's measures at the fold."""
-        own = {
-            name: lambda U, lam, name=name: _of(self, name, U, lam, float(U[-1])) for name in getattr(self.model, "measures", {})
-        }
+        own = self._own(lambda U, lam: (lam, float(U[-1])))
         return {**own, self.name: lambda U, _: float(U[-1])}
 
 
@@ -118,8 +128,8 @@ class BranchPoints(_Unfolded):
         """By blocks."""
         u, v, lam, _ = self._parts(U)
         J, F_lam = _matrix(self._J(u, lam, beta)), self._F_lam(u, lam, beta)
-        J_lam_v = self._along(lambda x: self._J(u, x, beta) @ v, lam)
-        twice = self._along(lambda x: v @ self._F_lam(u, x, beta), lam)
+        J_lam_v = self._rate(lambda x: self._J(u, x, beta) @ v, lam)
+        twice = self._rate(lambda x: v @ self._F_lam(u, x, beta), lam)
         none, zero = np.zeros((1, self.n)), np.zeros((1, 1))
         return _blocks(
             [[J, None, F_lam[:, None], self.v0[:, None]],
@@ -131,16 +141,13 @@ class BranchPoints(_Unfolded):
     def d_lam(self, U: Array, beta: float) -> Array:
         """Derivatives in the parameter."""
         u, v, lam, _ = self._parts(U)
-        rate = self._along(lambda x: np.append(self._J(u, lam, x) @ v, [0.0, v @ self._F_lam(u, lam, x)]), beta)
+        rate = self._rate(lambda x: np.append(self._J(u, lam, x) @ v, [0.0, v @ self._F_lam(u, lam, x)]), beta)
         return np.concatenate([self.family.d_value(u, lam, beta), rate])
 
     @property
     def measures(self) -> dict[str, Any]:
         """The load, how far the branch point is broken, and the model's measures."""
-        own = {
-            name: lambda U, beta, name=name: _of(self, name, U, float(U[-2]), beta)
-            for name in getattr(self.model, "measures", {})
-        }
+        own = self._own(lambda U, beta: (float(U[-2]), beta))
         return {**own, "load": lambda U, _: float(U[-2]), "broken": lambda U, _: float(U[-1])}
 
     def _parts(self, U: Array) -> tuple[Array, Array, float, float]:
@@ -184,10 +191,6 @@ def _checked(event: Event, kind: str) -> None:
         raise ValueError(f"event must be a {kind} of one null vector that was followed; it is {event!r:.80}")
 
 
-def _of(equations: _Unfolded, name: str, U: Array, lam: float, beta: float) -> float:
-    return float(equations.family.at(beta).measures[name](U[: equations.n], lam))
-
-
 def _matrix(J: Any) -> Any:
     """A numpy array or a scipy sparse one."""
     dense = J.toarray() if hasattr(J, "toarray") else np.asarray(J)
@@ -199,9 +202,3 @@ def _blocks(rows: list[list[Any]]) -> Any:
     if n > DENSE:
         return block_array(rows, format="csc")
     return np.block([[np.zeros((n, n)) if block is None else block for block in row] for row in rows])
-
-
-def _fourth(function: Any, e: float) -> Any:
-    """The derivative at zero by central differences of two lengths."""
-    wide, close = ((function(2 * e) - function(-2 * e)) / (4 * e), (function(e) - function(-e)) / (2 * e))
-    return (4 * close - wide) / 3

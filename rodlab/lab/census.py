@@ -1,4 +1,4 @@
-"""A diagram with what is not connected: seeded with every equilibrium at some loads, and counted again at others.
+"""A diagram with what is not connected: seeded with every equilibrium at some loads.
 
 For a strut the seeds are complete (`all_equilibria`); for any other model they are what deflation finds. A closed branch
 that lies between two neighbouring loads altogether is still missed: `looks` says how many loads there are.
@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 
 from rodlab.analysis.deflation import deflation
-from rodlab.analysis.diagram import Diagram, diagram, window_of
+from rodlab.analysis.diagram import Diagram, begun, diagram, window_of
 from rodlab.analysis.equations import Equations
-from rodlab.analysis.equilibrium import equilibrium
 from rodlab.analysis.point import Point
 from rodlab.lab.equilibria import all_equilibria
 from rodlab.mechanics.strut import Strut
-from rodlab.numerics.arrays import Array, whole
+from rodlab.numerics.arrays import whole
 
 
 def census(model: Equations, lam: tuple[float, float], *, looks: int = 9, start: Any = None, **options: Any) -> Diagram:
@@ -30,16 +29,10 @@ def census(model: Equations, lam: tuple[float, float], *, looks: int = 9, start:
     """
     looks = whole("looks", looks, least=1)
     low, high = window_of(lam)
-    first = start if isinstance(start, Point) else equilibrium(model, low, start)
-    seeds = [first]
+    seeds = [begun(model, (low, high), start)]
     for load in np.linspace(low, high, looks + 1)[:0:-1]:
         seeds += _found(model, float(load))
     return diagram(model, (low, high), seeds, **options)
-
-
-def agreement(found: Diagram, strut: Strut, loads: Array, **options: Any) -> list[tuple[float, int, int]]:
-    """(load, solutions of the diagram, all equilibria of the strut) at each load: is anything missing?"""
-    return [(float(load), found.count(float(load)), len(all_equilibria(strut, float(load), **options))) for load in loads]
 
 
 def _found(model: Any, load: float) -> list[Point]:

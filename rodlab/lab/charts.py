@@ -1,5 +1,6 @@
 """Diagrams and equilibria as answers: what `--json` says of them, and the tables that a person reads."""
 
+from collections import Counter
 from typing import Any
 
 from rodlab.analysis.diagram import Diagram, Special
@@ -32,7 +33,6 @@ def _of_special(row: Special) -> dict[str, Any]:
 def diagram_tables(title: str, d: Diagram) -> str:
     """Special points, and how many solutions there are between them."""
     rows: list[list[Any]] = []
-    number: list[list[Any]] = []
     for row in d.table:
         change = " -> ".join("?" if i is None else str(i) for i in row.index)
         load, error = known_to(row.lam, max(row.error, 1e-15)), small(row.error)
@@ -40,7 +40,7 @@ def diagram_tables(title: str, d: Diagram) -> str:
             change, error = ("?" if row.index[0] is None else str(row.index[0])), ""
         rows.append([row.branch, row.kind, load, error, change, ", ".join(map(str, row.leaving)), row.reason])
     parts = [table(title, ["branch", "", "load", "+-", "index", "leaving", "why"], rows)]
-    number += [[f"{low:.6f}", f"{high:.6f}", count] for low, high, count in d.counts]
+    number: list[list[Any]] = [[f"{low:.6f}", f"{high:.6f}", count] for low, high, count in d.counts]
     parts.append(table("Solutions, mirror images among them", ["from", "to", "number"], number))
     images = [i for i, copies in enumerate(d.copies) if copies > 1]
     said = f"{d!r}"
@@ -75,9 +75,7 @@ def equilibria_table(found: Equilibria, *, connected: bool) -> str:
     parts = [table(f"Equilibria of {found.strut!r} at lam = {found.lam:g}", columns, rows)]
     if len(found) > ROWS:
         parts.append(f"(the first {ROWS} of {len(found)})")
-    by_index: dict[Any, int] = {}
-    for p in found:
-        by_index[p.index] = by_index.get(p.index, 0) + 1
+    by_index = Counter(p.index or 0 for p in found)
     said = ", ".join(f"{count} of index {index}" for index, count in sorted(by_index.items()))
     parts.append(f"{len(found)} in all: {said}; the sum of (-1)^index is {found.index_sum}")
     if connected:

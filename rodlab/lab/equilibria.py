@@ -56,9 +56,7 @@ class Equilibria:
     @property
     def index_sum(self) -> int | None:
         """Sum of (-1)^index: 1 where none is degenerate, as V grows in every direction [Morse]. None where an index is open."""
-        if not all(p.index_verified for p in self.points):
-            return None
-        return sum(-1 if p.index and p.index % 2 else 1 for p in self.points)
+        return _index_sum(self.points)
 
     @cached_property
     def images(self) -> tuple[int | None, ...]:
@@ -172,10 +170,16 @@ def _sampled(strut: Strut, lam: float, why: Sequence[str], engine: str | None) -
     if engine is None:
         reasons.append("nothing was proved, as certify=False")
     method = "sampled tip angles in floats" + ("" if engine is None else ", each equilibrium proved by Krawczyk's test")
-    found = Equilibria(strut, lam, _ordered(points.values()), False, method, "; ".join(reasons))
-    if found.index_sum not in (1, None):
-        reasons.append(f"the sum of (-1)^index is {found.index_sum} and not 1, so some are missing")
-    return Equilibria(strut, lam, found.points, False, method, "; ".join(reasons))
+    total = _index_sum(points.values())
+    if total not in (1, None):
+        reasons.append(f"the sum of (-1)^index is {total} and not 1, so some are missing")
+    return Equilibria(strut, lam, _ordered(points.values()), False, method, "; ".join(reasons))
+
+
+def _index_sum(points: Iterable[Point]) -> int | None:
+    if not all(p.index_verified for p in points):
+        return None
+    return sum(-1 if p.index and p.index % 2 else 1 for p in points)
 
 
 def _too_many(strut: Strut, lam: float) -> str:

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from rodlab.mechanics.recurrence import Recurrence, index_of, precision
+from rodlab.mechanics.recurrence import CUTS, Recurrence, index_of, precision
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array
 from rodlab.numerics.balls import Balls, balls
@@ -27,7 +27,6 @@ SLOW = 0.6  # an interval Newton step that shrinks its box by less is replaced b
 LOOPS = 400
 NEWTON = 40
 COST = 2  # boxes that a root is worth
-BEGIN = (-3.0123456789, -2.7301234567, -1.3456789012)  # where the circle may be cut: angles that nothing suggests
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +66,8 @@ def cover(strut: Strut, lam: float, *, most: int, engine: str | None = None) -> 
 
 
 class _Search:
+    """A cover in the making: boxes on a stack, what they showed in `found`."""
+
     def __init__(self, map_: Recurrence, numbers: Balls, most: int) -> None:
         self.map, self.numbers, self.most = map_, numbers, most
         self.found = Cover(numbers.name)
@@ -76,7 +77,7 @@ class _Search:
         if self.map.odd:  # -a is the mirror image of a
             low, high = self._middle(), two_pi / 2
         else:
-            cut = next((a for a in BEGIN if not self.numbers.has_integer(self._turns(self.map.end(number(a))[0]))), BEGIN[0])
+            cut = next((a for a in CUTS if not self.numbers.has_integer(self._turns(self.map.end(number(a))[0]))), CUTS[0])
             low, high = number(cut), number(cut) + two_pi
         ends = [low + (high - low) * i / FIRST for i in range(FIRST)] + [high]
         open_: list[tuple[Any, Any]] = []
@@ -112,7 +113,7 @@ class _Search:
         middle = angles[0]
         stack += [(middle, high), (low, middle)]
 
-    def _enclosed(self, low: Any, high: Any) -> tuple[Any, list[Any], list[Any], list[Any], list[Any]]:
+    def _enclosed(self, low: Any, high: Any) -> tuple[Any, Sequence[Any], Sequence[Any], list[Any], list[Any]]:
         box = self.numbers.hull(low, high)
         a = self.numbers.middle(box)
         angles, slopes = self.map.thin(a)

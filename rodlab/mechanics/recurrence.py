@@ -9,6 +9,7 @@ are all there is to search. The derivative psi_i = d(phi_i)/da counts the index:
 the Hessian from the free end, so that its negative eigenvalues are the changes of sign in psi_n = 1, ..., psi_0 [Sturm].
 """
 
+from collections import deque
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -20,15 +21,14 @@ from rodlab.numerics.balls import Balls
 
 SPARE = 64  # binary digits beyond those that the map may lose
 MOST = 4096
+CUTS = (-3.0123456789, -2.7301234567, -1.3456789012)  # where the circle of tip angles may be cut: nothing suggests these
 KNOWN = ("self_weight", "end_torque")
 
 
 class Floats:
     """Arithmetic of floats and arrays of them, in place of balls."""
 
-    two_pi = 2 * np.pi
-
-    def number(self, x: float, _radius: float = 0.0) -> Any:
+    def number(self, x: float) -> Any:
         return x
 
     def sin_cos(self, x: Any) -> tuple[Any, Any]:
@@ -52,7 +52,8 @@ class Recurrence:
                 raise ValueError(f"the terms must be {' or '.join(KNOWN)} to find all equilibria; one is {term!r}")
         joints, number = strut.joints, numbers.number
         lift, n = number(lam) * number(joints.h), joints.n
-        self.numbers, self.n = numbers, n
+        self.numbers: Any = numbers
+        self.n = n
         self.P = [lift * number(w) + (number(N) if N else 0) for w, N in _from_tip(joints.w, _dead(strut))]
         self.k = [number(k) for (k,) in _from_tip(joints.k)]
         self.beta = [number(beta) if beta else 0 for (beta,) in _from_tip(joints.beta)]
@@ -61,25 +62,23 @@ class Recurrence:
         self.phi0 = number(joints.phi0)
         self.odd = not (tau or joints.curved or joints.phi0)
 
-    def end(self, a: Any) -> tuple[Any, Any]:
-        """phi_0 and psi_0 alone, at a number a or at an array of them."""
+    def orbit(self, a: Any) -> Iterator[tuple[Any, Any]]:
+        """phi_i and psi_i one after the other, i = n .. 0, at a number a or at an array of them."""
         phi, psi, M, dM = a, a * 0 + 1, self.tau, 0
+        yield phi, psi
         for P, k, beta in zip(self.P, self.k, self.beta, strict=True):
             s, c = self.numbers.sin_cos(phi)
             M, dM = M + P * s, dM + P * (c * psi)
             phi, psi = phi - beta - M / k, psi - dM / k
-        return phi, psi
+            yield phi, psi
 
-    def thin(self, a: Any) -> tuple[list[Any], list[Any]]:
-        """phi and psi at a number a, or at an array of them."""
-        phi, psi, M, dM = a, a * 0 + 1, self.tau, 0
-        angles, slopes = [phi], [psi]
-        for P, k, beta in zip(self.P, self.k, self.beta, strict=True):
-            s, c = self.numbers.sin_cos(phi)
-            M, dM = M + P * s, dM + P * (c * psi)
-            phi, psi = phi - beta - M / k, psi - dM / k
-            angles.append(phi)
-            slopes.append(psi)
+    def end(self, a: Any) -> tuple[Any, Any]:
+        """phi_0 and psi_0, the rest forgotten."""
+        return deque(self.orbit(a), maxlen=1)[0]
+
+    def thin(self, a: Any) -> tuple[Sequence[Any], Sequence[Any]]:
+        """All phi and all psi."""
+        angles, slopes = zip(*self.orbit(a), strict=True)
         return angles, slopes
 
     def wide(self, box: Any, a: Any, angles: Sequence[Any], slopes: Sequence[Any]) -> tuple[list[Any], list[Any]]:
@@ -87,7 +86,7 @@ class Recurrence:
 
         Each is the narrower of two: by the map itself, and by the mean value theorem from a.
         """
-        radius, off = self.numbers.radius, box - a  # type: ignore[union-attr]
+        radius, off = self.numbers.radius, box - a
         phi, psi, chi = box, a * 0 + 1, a * 0
         M, dM, ddM = self.tau, a * 0, a * 0
         all_phi, all_psi = [phi], [psi]

@@ -36,14 +36,7 @@ if TYPE_CHECKING:
 FIRST = 4  # intervals of the first mesh
 HIGHEST = 32  # degree
 NEAREST = 1e-9  # distance of breaks
-DERIVED = (
-    "companion",
-    "compliance",
-    "_stiff",
-    "_with_load",
-    "_without_load",
-    "symmetries",
-)  # computed once, from mesh and parameters
+DERIVED = ("companion", "compliance", "_stiff", "_with_load", "_without_load", "symmetries")  # of mesh and parameters
 
 
 class Rod:

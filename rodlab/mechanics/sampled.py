@@ -5,9 +5,11 @@ also at the extrema of the cubics. Complete if nothing happens between samples: 
 that can be had. Cost: samples times n.
 """
 
+from math import log2
+
 import numpy as np
 
-from rodlab.mechanics.recurrence import Floats, Recurrence
+from rodlab.mechanics.recurrence import CUTS, Floats, Recurrence, bits
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array
 
@@ -16,7 +18,6 @@ FINE = 1e-3  # error of a cubic half-way between its samples, radians
 ROUNDS = 60
 MANY, MOST = 100_000, 1_000_000  # equilibria, and angles of all of them
 COARSE = 1_000_000  # samples times n, to see whether there are too many
-BEGIN = -3.0123456789  # where the circle is cut
 FROM_STRAIGHT = 1e-9  # tip angle beside the straight strut that a straight one is searched from
 
 
@@ -29,7 +30,7 @@ def sampled(strut: Strut, lam: float, *, most: int = 1_000_000) -> list[Array] |
     if too_many(strut, lam):
         return None
     map_ = Recurrence(strut, lam, Floats())
-    low, high = (FROM_STRAIGHT, np.pi) if map_.odd else (BEGIN, BEGIN + 2 * np.pi)
+    low, high = (FROM_STRAIGHT, np.pi) if map_.odd else (CUTS[0], CUTS[0] + 2 * np.pi)
     a = np.linspace(low, high, FIRST)
     with np.errstate(all="ignore"):
         return _found(map_, a, most)
@@ -60,9 +61,11 @@ def _found(map_: Recurrence, a: Array, most: int) -> list[Array] | None:
 
 def too_many(strut: Strut, lam: float) -> bool:
     """True when even a coarse sample shows more equilibria than can be listed, or floats cannot follow the function at all."""
+    if bits(strut, lam) <= log2(MANY):  # phi_0 does not turn more often than its slope allows
+        return False
     map_ = Recurrence(strut, lam, Floats())
     with np.errstate(all="ignore"):
-        phi, _ = map_.end(np.linspace(BEGIN, BEGIN + 2 * np.pi, COARSE // strut.n + FIRST))
+        phi, _ = map_.end(np.linspace(CUTS[0], CUTS[0] + 2 * np.pi, COARSE // strut.n + FIRST))
         turns = np.abs(np.diff(np.floor(phi / (2 * np.pi)))).sum()
     return not turns <= MANY
 
