@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from rodlab.lab.census import census
     from rodlab.lab.equilibria import Equilibria, all_equilibria
     from rodlab.lab.saved import read
+    from rodlab.lab.studies.study import Study, study
     from rodlab.mechanics.buckling import Buckling, buckling, buckling_loads
     from rodlab.mechanics.conjugate import conjugate_points
     from rodlab.mechanics.convexity import uniqueness
@@ -69,6 +70,7 @@ _HOME = {
     "Rod": "mechanics.rod",
     "Shape": "analysis.point",
     "Strut": "mechanics.strut",
+    "Study": "lab.studies.study",
     "Term": "mechanics.terms",
     "Tridiagonal": "numerics.tridiagonal",
     "all_equilibria": "lab.equilibria",
@@ -97,6 +99,7 @@ _HOME = {
     "read": "lab.saved",
     "self_weight": "mechanics.terms",
     "steepest_descent": "analysis.downhill",
+    "study": "lab.studies.study",
     "switch": "analysis.switching",
     "term": "mechanics.terms",
     "uniqueness": "mechanics.convexity",
@@ -106,10 +109,10 @@ _HOME = {
 __all__ = [  # the same names; a test compares
     "Bordered", "Branch", "Buckling", "Diagram", "Distinguished", "Elastica", "Equations", "Equilibria", "Event",
     "Expansion", "Imperfection", "Invariants", "Koiter", "Newton", "NoConvergence", "Point", "Rod", "Shape", "Strut",
-    "Term", "Tridiagonal", "all_equilibria", "branch", "branch_point", "branch_points", "buckling", "buckling_loads",
+    "Study",    "Term", "Tridiagonal", "all_equilibria", "branch", "branch_point", "branch_points", "buckling", "buckling_loads",
     "census", "conjugate_points", "deflation", "diagram", "distinguished", "elastica", "end_torque", "equilibrium",
     "expansion", "factor", "fold", "folds", "follow", "foundation", "imperfection", "invariants", "koiter", "read",
-    "self_weight", "steepest_descent", "switch", "term", "uniqueness", "vary",
+    "self_weight", "steepest_descent", "study", "switch", "term", "uniqueness", "vary",
 ]  # fmt: skip
 
 

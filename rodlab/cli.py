@@ -22,7 +22,7 @@ Five commands to try:
   rodlab tour                                     the strut: branches, buckling loads and shapes, as n grows
   rodlab buckling --model rod --K "(1+s)**2"      buckling loads, with error bounds; -n 400 for a strut
   rodlab diagram -n 100 --to 130 --out all.png    every branch up to a load, special points, number of solutions
-  rodlab equilibria -n 5 --lam 60                 every equilibrium at a load, certified to be all
+  rodlab study convergence --quick                orders, rounding floors and limits; work-precision and stability likewise
   rodlab run imperfect --out imperfect            a scene: branches, events, picture and data; rodlab scenes lists them
 """
 
@@ -184,6 +184,29 @@ def equilibria(chosen: argparse.Namespace) -> int:
     return 0 if found.certified or not chosen.certify else _complain("equilibria", f"not certified: {found.reason}", 1)
 
 
+def study(chosen: argparse.Namespace) -> int:
+    """rodlab study"""
+    from pathlib import Path
+
+    from rodlab.lab.store import as_json
+    from rodlab.lab.studies.study import study
+
+    start = time.perf_counter()
+    bar = _counted("cells")
+    found = study(
+        chosen.study, quick=chosen.quick, peers=chosen.peers, jobs=_jobs(chosen), cluster=chosen.cluster, out=chosen.out,
+        ask=_question(chosen), watch=bar,
+    )  # fmt: skip
+    bar.close()
+    written = [str(path) for path in found.write(Path(chosen.out))] if chosen.out else []
+    if chosen.json:
+        print(as_json({**found.answer, "files": written}))
+    else:
+        print(found.text)
+        print(f"in {time.perf_counter() - start:.1f} s" + "".join(f"\n  {path}" for path in written))
+    return 0 if found.complete else _complain("study", "an answer is wrong or missing: the tables say which", 1)
+
+
 def scenes(chosen: argparse.Namespace) -> int:
     """rodlab scenes"""
     from rodlab.lab.scene import scenes
@@ -205,8 +228,14 @@ def run(chosen: argparse.Namespace) -> int:
     from pathlib import Path
 
     from rodlab.lab.running import run_scene
-    from rodlab.lab.store import as_json
+    from rodlab.lab.store import as_json, framed
 
+    if chosen.account:
+        from rodlab.lab.account import account, account_table
+
+        start, found = time.perf_counter(), account(chosen.scene)
+        print(as_json(framed("run", time.perf_counter() - start, found)) if chosen.json else account_table(found))
+        return 0
     answer, text, completed = run_scene(chosen.scene, Path(chosen.out) if chosen.out else None, watch=_watched("points", 10**6))
     print(as_json(answer) if chosen.json else text)
     return 0 if completed else _complain("run", "a branch of the scene could not be followed to its end", 3)
@@ -220,6 +249,41 @@ def _watched(what: str, work: int) -> Any:
 
     bar = tqdm(desc=what, delay=2, leave=False)
     return lambda _: bar.update()
+
+
+def _counted(what: str) -> Any:
+    """A bar on stderr with the remaining time, as a callback of (done, in all)."""
+    from tqdm import tqdm
+
+    bar = tqdm(desc=what, delay=2, leave=False)
+
+    def watch(done: int, total: int) -> None:
+        if bar.total is None:
+            bar.total, bar.initial, bar.n = total, done, done  # what a journal knows took no time
+        bar.update(done - bar.n)
+
+    watch.close = bar.close  # type: ignore[attr-defined]
+    return watch
+
+
+def _jobs(chosen: argparse.Namespace) -> int:
+    """As many processes as asked for; without a word all cores, but one where run time is what is measured."""
+    import os
+
+    if chosen.jobs is not None:
+        return int(chosen.jobs)
+    return 1 if chosen.study == "work-precision" else os.cpu_count() or 1
+
+
+def _question(chosen: argparse.Namespace) -> dict[str, Any] | None:
+    """One question of one's own in the place of the scene's, of what was given on the command line."""
+    from rodlab.lab.studies.study import question_instead
+
+    asked = {name: getattr(chosen, name) for name in ("quantity", "mode", "lam", "K", "u_hat", "breaks")}
+    for name in ("K", "u_hat"):
+        asked[name] = asked[name] and _number_or_text(asked[name])
+    sizes = {name: getattr(chosen, name) for name in ("methods", "joints", "intervals")}
+    return question_instead(chosen.study, asked, sizes)
 
 
 def _progress(entries: Any, what: str, total: int, work: int) -> Any:
@@ -272,11 +336,24 @@ def _parser() -> argparse.ArgumentParser:
     verb.add_argument("--engine", choices=["flint", "mpmath"], help="arithmetic of the proof (default: flint if installed)")
     verb.add_argument("--out", metavar="FILE", help="draw them on the standard map, to a .png, .pdf or .svg file")
 
+    verb = _verb(verbs, study, "error against n, against run time, and where it is hard: orders, floors, limits, verdicts")
+    what = "convergence, work-precision, stability, or the path of a scene's .toml that asks for one of them"
+    verb.add_argument("study", metavar="STUDY", help=what)
+    verb.add_argument("--quick", action="store_true", help="fewer cells, in seconds")
+    verb.add_argument("--peers", action="store_true", help="work-precision: beside scipy's solve_bvp and AUTO, where installed")
+    verb.add_argument("--out", metavar="DIR", help="folder for tables, shapes, pictures, and to go on from when killed")
+    verb.add_argument("--jobs", type=int, help="processes (default: all cores; 1 for work-precision, whose run times count)")
+    verb.add_argument("--cluster", metavar="ADDRESS", help="a Dask scheduler's address, or local, with --jobs workers")
+    _question_options(verb)
+
     _verb(verbs, scenes, "the situations of the notes by name")
 
     verb = _verb(verbs, run, "run a scene: its branches, events, picture and data")
     verb.add_argument("scene", metavar="SCENE", help="a name that `rodlab scenes` lists, or the path of a .toml file")
     verb.add_argument("--out", metavar="DIR", help="folder for the picture and the data (default: nothing is written)")
+    verb.add_argument(
+        "--account", action="store_true", help="say instead what it costs, and what it is spared: imports, kernels, seconds"
+    )
     return parser
 
 
@@ -314,6 +391,21 @@ def _model_options(
     verb.add_argument("--degree", type=int, help="of a rod: degree of the collocated polynomials (default: 6)")
     verb.add_argument("--mesh", type=int, help="of a rod: number of intervals (default: adapted)")
     verb.add_argument("--tol", type=float, help="of a rod: error of the angles that the mesh is adapted to (default: 1e-10)")
+
+
+def _question_options(verb: argparse.ArgumentParser) -> None:
+    own = verb.add_argument_group("a question of one's own, in place of those of the file")
+    own.add_argument("--quantity", help="load, tip_angle, height, energy, index or fold")
+    own.add_argument("--mode", type=int, help="buckling mode (default: 1)")
+    own.add_argument("--lam", type=float, help="the load, for all but a buckling load")
+    own.add_argument("--K", help='bending stiffness: a number or an expression in s, "1+s"')
+    own.add_argument("--u-hat", help="unstressed curvature, likewise")
+    own.add_argument("--breaks", type=float, nargs="+", metavar="S", help="where K or u_hat jumps")
+    own.add_argument(
+        "--methods", nargs="+", metavar="NAME", help='"strut, end", "strut, trapezoid", "rod, degree 4", "rod, adapted"'
+    )
+    own.add_argument("-n", "--joints", type=int, nargs="+", metavar="N", help="numbers of joints of the struts")
+    own.add_argument("--intervals", type=int, nargs="+", metavar="N", help="numbers of intervals of the rods")
 
 
 def _verb(verbs: Any, run: Any, what: str) -> argparse.ArgumentParser:

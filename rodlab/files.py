@@ -1,4 +1,4 @@
-"""Files written whole or not at all."""
+"""Files written whole or not at all: whatever kills the writer, a reader sees the old file or the new one."""
 
 import contextlib
 import os
@@ -25,3 +25,23 @@ def write_whole(path: Path, content: bytes | str) -> Path:
         with contextlib.suppress(OSError):  # the folder itself may be missing
             temporary.unlink(missing_ok=True)
     return path
+
+
+def swept(folder: Path) -> None:
+    """Remove what killed writers left beside their files."""
+    for path in folder.glob(".*"):
+        name, _, writer = path.name.rpartition(".")
+        if name.count(".") >= 2 and writer.isdecimal() and not _runs(int(writer)):
+            with contextlib.suppress(OSError):
+                path.unlink()
+
+
+def _runs(process: int) -> bool:
+    """True when a process of this number is running, or may be."""
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        pass
+    return True

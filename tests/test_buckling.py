@@ -3,9 +3,9 @@
 import mpmath as mp
 import numpy as np
 import pytest
-from conftest import exact_loads
 
 import rodlab as rl
+from rodlab.lab.studies.truths import exact_loads
 from rodlab.numerics.arrays import EPS
 
 

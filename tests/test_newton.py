@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from conftest import exact_tip, struts
+from conftest import struts
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse import csr_array
 
 import rodlab as rl
+from rodlab.lab.studies.truths import exact_tip
 
 
 class TwoStruts:

@@ -471,3 +471,25 @@ def test_a_mesh_too_coarse_does_not_pass_for_one_that_serves():
     p = rl.equilibrium(rl.Rod(mesh=2, degree=1), 5.0, lambda s: 2 * s)
     assert p.error > abs(p.tip_angle - rl.elastica(5.0).tip_angle) > 1e-3
     assert companion_of(p.equations, p.u, 5.0).rod.degree == 2
+
+
+@pytest.mark.parametrize("lam", [-1e8, -1e7, -1e4, 5.0, 300.0, 1e5])
+@pytest.mark.parametrize("n", [1, 2, 300, 3000])
+def test_conjugate_points_neither_overflow_nor_vanish(n, lam):
+    """Found by the study of stability: a field that grows by more than 300 decades left zeros behind it."""
+    p = rl.equilibrium(rl.Strut(n=n), lam)
+    assert rl.conjugate_points(p).size == p.index
+
+
+@pytest.mark.parametrize("K", [1.0, "1 + s", "Piecewise((1, s < 0.5), (1e6, True))"])
+@pytest.mark.parametrize("lam", [-1e6, -1e4, 5.0, 40.0, 1e3])
+def test_conjugate_points_of_a_rod_whose_mesh_does_not_resolve_the_field(K, lam):
+    p = rl.equilibrium(rl.Rod(K=K), lam)
+    assert rl.conjugate_points(p).size == p.index
+    assert p.index_verified
+
+
+def test_angles_below_the_normal_floats_have_an_error():
+    p = rl.equilibrium(rl.Strut(n=1, u_hat=5e-324), 0.5)
+    assert 5e-324 <= p.error < 1e-320
+    assert rl.equilibrium(rl.Strut(n=10, K=1e-310, u_hat=1.0), 1e-310).error == np.inf

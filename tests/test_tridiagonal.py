@@ -3,10 +3,10 @@
 import mpmath as mp
 import numpy as np
 import pytest
-from conftest import exact_index
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rodlab.lab.studies.truths import exact_index
 from rodlab.numerics import tridiagonal
 from rodlab.numerics.difference import DifferenceForm, Springs
 from rodlab.numerics.tridiagonal import Tridiagonal, count_below_zero

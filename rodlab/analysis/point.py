@@ -9,7 +9,7 @@ import numpy as np
 
 from rodlab.analysis.equations import Equations, jacobian, second_variation
 from rodlab.analysis.newton import NewtonStep
-from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.arrays import EPS, LEAST, Array
 from rodlab.numerics.factor import factor, inertia_of, largest_change
 from rodlab.numerics.inertia import Inertia, Symmetric
 
@@ -201,12 +201,17 @@ class Point:
         unit[-1] = 1.0
         J, F = jacobian(self.equations, self.u, self.lam), np.asarray(self.equations.residual(self.u, self.lam))
         with np.errstate(all="ignore"):
-            v = J.solve_fully(unit) if isinstance(J, Symmetric) else factor(J).solve_transposed(unit)
+            try:
+                v = J.solve_fully(unit) if isinstance(J, Symmetric) else factor(J).solve_transposed(unit)
+            except ValueError:  # its entries leave the range of floats
+                return np.inf
             if not np.isfinite(v).all():
                 v = np.full_like(unit, np.finfo(float).max)
             own = getattr(self.equations, "rounding", None)
             rounding = float(own(self.u, self.lam, v) if own is not None else np.abs(v) @ self._noise)
             rounding += 2 * abs(float(v @ F))  # what the residual still asks for, doubled for what is not linear
+            if self.u.any():
+                rounding += 4 * LEAST * (1 + float(np.abs(v).sum()))  # below TINY rounding is no longer relative
         total = self.remaining + EPS * abs(float(self.u[-1])) + (rounding if np.isfinite(rounding) else np.inf)
         return total if total == 0 or self.inertia is None or self.inertia.verified else np.inf
 

@@ -33,7 +33,7 @@ class Answer(NamedTuple):
 def asked(scene: Scene) -> dict[str, Answer]:
     """The answers to a scene's questions, by name."""
     every = {"diagram": _diagram, "equilibria": _equilibria, "breaking": _breaking}
-    return {name: every[name](scene, options) for name, options in scene.asks.items()}
+    return {name: every.get(name, _study)(scene, options) for name, options in scene.asks.items()}
 
 
 def _diagram(scene: Scene, options: Mapping[str, Any]) -> Answer:
@@ -84,6 +84,13 @@ def _breaking(scene: Scene, options: Mapping[str, Any]) -> Answer:
     tips = {"imperfection": found.small, "tip_angle": found.tips, "root": found.root}
     said = {"lam": found.event.lam, "strength": found.imperfection.strength, "cusp": columns, "tips": tips}
     return Answer(said, _laws(found), draw, complete=True)
+
+
+def _study(scene: Scene, _: Mapping[str, Any]) -> Answer:
+    from rodlab.lab.studies.study import study
+
+    found = study(scene)
+    return Answer(found.answer, found.text, found.figure, found.complete)
 
 
 def _strut(scene: Scene, name: str) -> Strut:

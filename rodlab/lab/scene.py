@@ -12,6 +12,7 @@ nothing is drawn. Scenes of the house are called by name, your own by path. In p
     [diagram]       from, to, detached            every branch in a window of loads
     [equilibria]    lam, n                        every equilibrium at a load, for several n, on the standard map
     [breaking]      parameter, most, show         a pitchfork and its imperfection
+    [convergence], [work-precision], [stability]  a study: see `rodlab.lab.studies`; [stability] needs no [model]
 """
 
 import time
@@ -35,8 +36,16 @@ from rodlab.mechanics.recipe import build
 from rodlab.numerics.arrays import number, whole
 
 HOUSE = Path(__file__).with_name("scenes")
+FORMATS = ("png", "pdf", "svg")
 EVENTS = {"fold": fold, "branch point": branch_point}
-ASKS = {"diagram": ("from", "to", "detached"), "equilibria": ("lam", "n"), "breaking": ("parameter", "most", "show")}
+ASKS = {
+    "diagram": ("from", "to", "detached"),
+    "equilibria": ("lam", "n"),
+    "breaking": ("parameter", "most", "show"),
+    "convergence": ("methods", "joints", "intervals", "ask", "quick", "shapes"),
+    "work-precision": ("ask", "methods", "repeats", "quick"),
+    "stability": ("grid",),
+}
 OPTIONS = ("name", "from", "to", "guess", "step", "events", "within", "max_points", "switch")
 
 
@@ -58,7 +67,7 @@ def scenes() -> list[Scene]:
     """The scenes of the house, by name.
 
     >>> [scene.name for scene in scenes()][:3]
-    ['bend', 'connected', 'cusp']
+    ['bend', 'connected', 'convergence']
     """
     return [read_scene(path) for path in sorted(HOUSE.glob("*.toml"))]
 
@@ -86,7 +95,7 @@ def read_scene(path: Path) -> Scene:
     unknown = sorted(set(given) - set(known))
     if unknown:
         raise ValueError(f"{path}: a scene is made of {', '.join(known)}; {unknown[0]} is none of these")
-    if not isinstance(given.get("model"), dict):
+    if not isinstance(given.get("model", {} if "stability" in given else None), dict):
         raise ValueError(f"{path}: a scene needs a [model] table")
     asks = {name: _asked(path, name, given[name]) for name in ASKS if name in given}
     runs = given.get("follow", [] if asks else None)
@@ -99,7 +108,7 @@ def read_scene(path: Path) -> Scene:
             raise ValueError(f"{path}: [[follow]] takes {', '.join(OPTIONS)}; {said}")
     texts = {name: str(given.get(name, "")) for name in ("title", "source", "about")}
     return Scene(
-        path.stem, **texts, model=given["model"], follow=tuple(runs), draw=_drawn(path, given.get("draw", {})), asks=asks
+        path.stem, **texts, model=given.get("model", {}), follow=tuple(runs), draw=_drawn(path, given.get("draw", {})), asks=asks
     )
 
 
@@ -160,6 +169,9 @@ def _asked(path: Path, name: str, options: Any) -> Mapping[str, Any]:
 
 
 def _drawn(path: Path, draw: Any) -> Mapping[str, Any]:
-    if not isinstance(draw, dict) or set(draw) - {"y"} or draw.get("y", "tip_angle") not in MEASURES:
-        raise ValueError(f"{path}: [draw] takes y, one of {', '.join(MEASURES)}; it is {draw!r:.60}")
+    if not isinstance(draw, dict) or set(draw) - {"y", "formats"} or draw.get("y", "tip_angle") not in MEASURES:
+        raise ValueError(f"{path}: [draw] takes y, one of {', '.join(MEASURES)}, and formats; it is {draw!r:.60}")
+    formats = draw.get("formats", ["png"])
+    if not isinstance(formats, list) or not all(name in FORMATS for name in formats):
+        raise ValueError(f"{path}: formats must be a list of {', '.join(FORMATS)}; it is {formats!r:.60}")
     return draw

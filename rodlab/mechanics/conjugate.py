@@ -4,7 +4,7 @@
 
 Each zero of w in (0, 1) is a conjugate point. (Started at the clamp, w(0) = 0, the same count is that of a rod held at both
 ends: too small by one wherever the last moment has the wrong sign.) The field is marched through the second variation,
-condensed to mesh points or the strut's own, and rescaled as it goes, lest it overflow at lam = -1e8.
+condensed to mesh points or the strut's own, and rescaled at every step, lest it overflow or vanish at lam = -1e8.
 """
 
 from typing import Any
@@ -16,8 +16,6 @@ from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array
 from rodlab.numerics.collocated import Collocated
 from rodlab.numerics.full import Full
-
-BIG = 1e150
 
 
 def conjugate_points(p: Any) -> Array:
@@ -38,32 +36,49 @@ def conjugate_points(p: Any) -> Array:
             f"p must be an equilibrium of a strut or rod whose second variation is local; its model is {model!r:.60}"
         )
     if isinstance(matrix, Collocated):
-        known = matrix.condensed()
-        w = _field(known.diagonal, known.S[:, 0, 1])
-        ends = np.stack([w[:-1], w[1:]], axis=1)
-        inner = -(known.F @ ends[:, :, None])[:, :, 0]
-        return _zeros(model.grid.places, np.append(w[0], np.concatenate([inner, ends[:, 1:]], axis=1).ravel()))
-    d, e = matrix.diagonal, np.append(-model.joints.k[0], matrix.off_diagonal)
-    return _zeros(np.append(0.0, model.joints.s), _field(d, e))
+        return _of_rod(matrix, model.grid.places)
+    d, e, s = matrix.diagonal, np.append(-model.joints.k[0], matrix.off_diagonal), np.append(0.0, model.joints.s)
+    return _zeros(np.stack([s[:-1], s[1:]], axis=1), _field(d, e))
+
+
+def _of_rod(matrix: Collocated, places: Array) -> Array:
+    """Zeros at mesh points and between them, by the nodes of each interval.
+
+    An interval that by itself is stable, its ends held, has one where its ends differ in sign and none else: where a mesh is
+    too coarse for the field, as for a layer that nothing in the solution asks to be resolved, its nodes are not asked.
+    """
+    known = matrix.condensed()
+    inner = matrix.blocks[:, 1:-1, 1:-1]
+    stable = (np.linalg.eigvalsh(inner) > 0).all(axis=1)
+    coupling = known.S[:, 0, 1]
+    ends = _field(known.diagonal, np.where(stable, -np.abs(coupling), coupling))
+    nodes = np.arange(matrix.N)[:, None] * matrix.m + np.arange(matrix.m + 1)
+    s = places[nodes]
+    w = np.concatenate([ends[:, :1], -(known.F @ ends[:, :, None])[:, :, 0], ends[:, 1:]], axis=1)
+    line = ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * (s - s[:, :1]) / (s[:, -1:] - s[:, :1])
+    changes = (np.diff(np.sign(w), axis=1) != 0).sum(axis=1)
+    asked = stable & (changes != (ends[:, 0] * ends[:, 1] < 0))
+    return _zeros(s, np.where(asked[:, None], line, w))
 
 
 def _field(d: Array, e: Array) -> Array:
-    """w at the clamp and the mesh points, (N+1,), from rows e_i w_{i-1} + d_i w_i + e_{i+1} w_{i+1} = 0, from the last up.
+    """w at both ends of each interval, (N, 2), from rows e_i w_{i-1} + d_i w_i + e_{i+1} w_{i+1} = 0, from the last up.
 
-    Only ratios of neighbours matter: where it has grown out of range it is scaled back.
+    Only ratios of neighbours matter: each pair is scaled by its larger, so that none is lost to overflow or underflow.
     """
-    w = np.zeros(d.size + 1)
-    w[-1] = 1.0
-    above = 0.0
-    for i in range(d.size, 0, -1):
-        w[i - 1] = -(d[i - 1] * w[i] + above) / e[i - 1]
-        if abs(w[i - 1]) > BIG:
-            w[i - 1 :] /= abs(w[i - 1])
-        above = e[i - 1] * w[i]
+    w = np.empty((d.size, 2))
+    here, above = 1.0, 0.0
+    for i in range(d.size - 1, -1, -1):
+        below = -(d[i] * here + above) / e[i]
+        size = max(abs(below), abs(here))
+        w[i] = below / size, here / size
+        here, above = w[i, 0], e[i] * w[i, 1]
     return w
 
 
 def _zeros(s: Array, w: Array) -> Array:
-    """Where a field known at s changes its sign, by lines between neighbours; a zero at the clamp itself is none."""
-    i = np.flatnonzero((w[:-1] * w[1:] < 0) | ((w[1:] == 0) & (s[1:] < s[-1])))
-    return np.asarray(s[i] + (s[i + 1] - s[i]) * w[i] / (w[i] - w[i + 1]))
+    """Where a field known at s (N, m) of each interval changes its sign, by lines; a zero at the clamp itself is none."""
+    sign = np.sign(w)
+    i, j = np.nonzero((sign[:, :-1] * sign[:, 1:] < 0) | ((sign[:, 1:] == 0) & (s[:, 1:] < s[-1, -1])))
+    below, above = w[i, j], w[i, j + 1]
+    return np.asarray(s[i, j] + (s[i, j + 1] - s[i, j]) * (below / (below - above)))

@@ -178,16 +178,22 @@ def rod_loads(rod: "Rod", numbers: Sequence[int]) -> Iterator[Load]:
         yield found
 
 
+def mesh_load(rod: "Rod", j: int) -> tuple[float, float]:
+    """Load j of a rod as its own mesh and degree have it, and a bound on rounding: what a study of the mesh compares.
+
+    >>> from rodlab.mechanics.rod import Rod
+    >>> load, rounding = mesh_load(Rod(mesh=2, degree=1), 1)             # two links: 8 (1 - cos(pi/4)) / cos(pi/8)^2
+    >>> round(load, 12), rounding < 1e-13
+    (2.745166004061, True)
+    """
+    pencil = Pencil(rod, rod.mesh, rod.degree)
+    load, rounding, _ = _alone(pencil, j, *_isolated(pencil, j, _guess(rod, j, [])))
+    return load, rounding
+
+
 def _found(pencil: Pencil, j: int, low: float, high: float) -> Load:
     """Load j between bounds that hold it alone. Raises `ArithmeticError` where it cannot be told from its neighbours."""
-    load, rounding, w = _nearest(pencil, low, high)
-    for _ in range(60):
-        if low < load < high:
-            break
-        low, high = _narrowed(pencil, j, low, high)  # a neighbour is nearer to the middle
-        load, rounding, w = _nearest(pencil, low, high)
-    else:
-        raise ArithmeticError(f"load {j} cannot be told from its neighbours between {low:.9g} and {high:.9g}")
+    load, rounding, w = _alone(pencil, j, low, high)
     fine = pencil.companion
     better, finest, v = fine.iterated(load, pencil.grid.onto(pencil.grid.nodal(w, 0.0), fine.grid), 3)
     error = 2 * abs(better - load) + rounding + finest
@@ -195,6 +201,16 @@ def _found(pencil: Pencil, j: int, low: float, high: float) -> Load:
     mode = np.append(0.0, v)
     mode /= np.sign(mode[np.flatnonzero(mode)[0]]) * float(np.abs(mode).max())
     return Load(better, error, fine.grid, mode, missed / max(abs(better), 1e-300), rounding + finest)
+
+
+def _alone(pencil: Pencil, j: int, low: float, high: float) -> tuple[float, float, Array]:
+    """The pencil's own load j, its rounding and its vector. Raises `ArithmeticError` where a neighbour is too near."""
+    for _ in range(60):
+        load, rounding, w = _nearest(pencil, low, high)
+        if low < load < high:
+            return load, rounding, w
+        low, high = _narrowed(pencil, j, low, high)  # a neighbour is nearer to the middle
+    raise ArithmeticError(f"load {j} cannot be told from its neighbours between {low:.9g} and {high:.9g}")
 
 
 def _nearest(pencil: Pencil, low: float, high: float) -> tuple[float, float, Array]:

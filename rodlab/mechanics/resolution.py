@@ -111,13 +111,14 @@ def _missed_tip(known: Corrected, tip: float, lam: float) -> float:
 def missed(rod: "Rod", u: Array, lam: float, v: Array) -> tuple[float, float]:
     """How much the mesh misses of v . F and of v . J v, by the companion: what moves folds and branch points.
 
-    Where v is a null vector both are stationary, so that u and v need not be those of the companion.
+    Where v is a null vector both are stationary, so that u and v need not be those of the companion; what they miss of
+    its own comes to as much again, to leading order.
     """
     fine = rod.companion
     w, finer = fine.moved(rod, v, direction=True), fine.moved(rod, u)
     force = float(w @ fine.residual_wide(finer, lam)) - float(v @ rod.residual_wide(u, lam))
     stiffness = quadratic(fine.jacobian(finer, lam), w)[0] - quadratic(rod.jacobian(u, lam), v)[0]
-    return SAFE * abs(force), SAFE * abs(stiffness)
+    return 2 * SAFE * abs(force), 2 * SAFE * abs(stiffness)
 
 
 def inertia(rod: "Rod", u: Array, lam: float) -> Inertia:

@@ -9,6 +9,7 @@ import numpy.typing as npt
 Array = npt.NDArray[np.float64]
 EPS = float(np.finfo(np.float64).eps)
 TINY = float(np.finfo(np.float64).tiny)
+LEAST = float(np.finfo(np.float64).smallest_subnormal)
 
 
 def is_finite(values: Array) -> bool:

@@ -92,16 +92,13 @@ def _almost_block(left: tuple[Array, Array], right: tuple[Array, Array], G: Arra
     rows = np.zeros((order, 3 * d))  # row k, columns from that of its block's first unknown
     known = np.zeros(order)
     rows[:top, :d], known[:top] = L, low - L @ y[:, 0]
-    for i in range(N):
-        at = slice(top + i * d, top + (i + 1) * d)
-        rows[at, :d], rows[at, d : 2 * d], known[at] = G[i], -np.eye(d), -g[i]
+    inner = slice(top, top + N * d)
+    rows[inner, :d], rows[inner, d : 2 * d], known[inner] = G.reshape(-1, d), np.tile(-np.eye(d), (N, 1)), -g.ravel()
     rows[order - high.size :, :d], known[order - high.size :] = R, high - R @ y[:, -1]
     first = np.concatenate([np.zeros(top), np.repeat(np.arange(N) * d, d), np.full(high.size, N * d)]).astype(int)
     wide = 2 * d
+    row, column = np.arange(order)[:, None], first[:, None] + np.arange(2 * d)
+    held = (column < order) & (np.abs(row - column) <= wide)
     band = np.zeros((2 * wide + 1, order))
-    for k in range(order):
-        for j in range(2 * d):
-            column = first[k] + j
-            if column < order and abs(k - column) <= wide:
-                band[wide + k - column, column] = rows[k, j]
+    band[(wide + row - column)[held], column[held]] = rows[:, : 2 * d][held]
     return np.asarray(solve_banded((wide, wide), band, known)).reshape(N + 1, d).T

@@ -12,16 +12,10 @@ solve_bvp; where a ratio is above its limit the table says so, and where the tim
 """
 
 import argparse
-import importlib.util
 import math
-import os
-import re
-import shutil
-import subprocess
 import sys
-import tempfile
 import time
-from pathlib import Path
+from contextlib import closing
 
 import numpy as np
 from scipy.integrate import solve_bvp
@@ -30,94 +24,16 @@ import rodlab as rl
 from rodlab.analysis.continuation import Walk
 from rodlab.analysis.crossings import Locator
 from rodlab.analysis.stops import passages
+from rodlab.lab.studies.peers import Auto, AutoSettings, auto_missing
 
 TO = 25.0
 
-MODEL = """
-      SUBROUTINE FUNC(NDIM,U,ICP,PAR,IJAC,F,DFDU,DFDP)
-      IMPLICIT DOUBLE PRECISION (A-H,O-Z)
-      DIMENSION U(NDIM),PAR(*),F(NDIM),ICP(*),DFDU(NDIM,NDIM),DFDP(NDIM,*)
-      F(1) = U(2)
-      F(2) = -PAR(1)*SIN(U(1))
-      IF (IJAC==0) RETURN
-      DFDU(1,1) = 0
-      DFDU(1,2) = 1
-      DFDU(2,1) = -PAR(1)*COS(U(1))
-      DFDU(2,2) = 0
-      IF (IJAC==1) RETURN
-      DFDP(1,1) = 0
-      DFDP(2,1) = -SIN(U(1))
-      END
-      SUBROUTINE STPNT(NDIM,U,PAR,T)
-      DOUBLE PRECISION U(NDIM),PAR(*),T
-      PAR(1) = 0
-      U = 0
-      END
-      SUBROUTINE BCND(NDIM,PAR,ICP,NBC,U0,U1,FB,IJAC,DBC)
-      IMPLICIT DOUBLE PRECISION (A-H,O-Z)
-      DIMENSION PAR(*),ICP(*),U0(NDIM),U1(NDIM),FB(NBC),DBC(NBC,*)
-      FB(1) = U0(1)
-      FB(2) = U1(2)
-      IF (IJAC==0) RETURN
-      DBC(:,1:4) = 0
-      DBC(1,1) = 1
-      DBC(2,4) = 1
-      IF (IJAC==2) DBC(:,5) = 0
-      END
-      SUBROUTINE PVLS(NDIM,U,PAR)
-      INTEGER NDIM
-      DOUBLE PRECISION U(NDIM),PAR(*)
-      DOUBLE PRECISION, EXTERNAL :: GETP
-      PAR(2) = ABS(GETP('BV1',1,U)) - 3
-      END
-      SUBROUTINE ICND
-      END
-      SUBROUTINE FOPT
-      END
-"""
-COMMON = "NDIM=2, IPS=4, ILP=0, ICP=[1,2], NPAR=2, IPLT=1, NBC=2, NINT=0, NPR=0, IID=0, ITMX=9, JAC=1, DSMIN=1e-5, IADS=1\n"
-TRIVIAL = COMMON + (
-    "IRS=0, NTST={ntst}, NCOL={ncol}, IAD=0, ISP=2, ISW=1, NMX=50, ITNW=5, NWTN={nwtn}, EPSL=1e-7, EPSU=1e-7, EPSS=1e-5,"
-    " DS=1.25, DSMAX=1.25, RL1=3.0, STOP=['BP1']\n"
-)
-BRANCH = COMMON + (
-    "IRS='BP1', NTST={ntst}, NCOL={ncol}, IAD={iad}, ISP=0, ISW=-1, NMX=500, ITNW={itnw}, NWTN={nwtn}, EPSL={epsl}, EPSU={epsl},"
-    " EPSS={epss}, DS={ds}, DSMAX={dsmax}, THL={{1:{thl}}}, THU={{2:{thu}}}, UZSTOP={{1:25.0}}\n"
-)
-NAMES = ("ntst", "ncol", "iad", "itnw", "nwtn", "epsl", "epss", "ds", "dsmax", "thl", "thu")
 SETTINGS = {
-    "AUTO, tuned, 1e-9": (4, 5, 1, 9, 2, 1.03e-5, 7.6e-7, 4.6686, 4.3303, 0.87125, 0),
-    "AUTO, tuned, 1e-10": (4, 6, 3, 9, 3, 5.07e-3, 4.8e-8, 2.24572, 0.567436, 3.36243e-3, 0.1),
-    "AUTO, usual, 1e-9": (10, 4, 3, 5, 3, 1e-7, 1e-9, 0.5, 0.5, 1, 1),
-    "AUTO, usual, 1e-10": (20, 4, 3, 5, 3, 1e-7, 1e-9, 0.5, 0.5, 1, 1),
+    "AUTO, tuned, 1e-9": AutoSettings(4, 5, 1, 9, 2, 1.03e-5, 7.6e-7, 4.6686, 4.3303, 0.87125, 0),
+    "AUTO, tuned, 1e-10": AutoSettings(4, 6, 3, 9, 3, 5.07e-3, 4.8e-8, 2.24572, 0.567436, 3.36243e-3, 0.1),
+    "AUTO, usual, 1e-9": AutoSettings(10, 4, 3, 5, 3, 1e-7, 1e-9, 0.5, 0.5),
+    "AUTO, usual, 1e-10": AutoSettings(20, 4, 3, 5, 3, 1e-7, 1e-9, 0.5, 0.5),
 }
-
-
-def auto(folder):
-    """The compiled program, or None where bifpy or gfortran is missing."""
-    spec, fortran = importlib.util.find_spec("bifpy"), shutil.which("gfortran")
-    if spec is None or fortran is None:
-        return None
-    library = Path(spec.submodule_search_locations[0]) / "auto" / "_lib"
-    (folder / "strut.f90").write_text(MODEL)
-    parts = [folder / "strut.f90", library / "main.o", library / "libbifpy.a", "-o", folder / "strut"]
-    done = subprocess.run([fortran, "-O3", *map(str, parts)], capture_output=True, text=True, check=False, cwd=folder)
-    return folder / "strut" if done.returncode == 0 else None
-
-
-def run_auto(program, folder, setting):
-    """(tip angle, points, AUTO's own seconds)."""
-    constants = dict(zip(NAMES, setting, strict=True))
-    seconds = 0.0
-    for text, restart in ((TRIVIAL, False), (BRANCH, True)):
-        (folder / "fort.2").write_text(text.format(**constants))
-        if restart:
-            os.replace(folder / "fort.8", folder / "fort.3")
-        done = subprocess.run([program], cwd=folder, capture_output=True, text=True, check=True)
-        seconds += sum(map(float, re.findall(r"Total Time\s+(\S+)", done.stdout)))
-    rows = [line.split() for line in (folder / "fort.7").read_text().splitlines() if not line.startswith("   0")]
-    assert rows[-1][2] == "-4", "AUTO did not end at lam = 25"
-    return float(rows[-1][-1]) + 3, len(rows), seconds
 
 
 def bare(intervals):
@@ -200,13 +116,15 @@ def main():
     (tip, points, _), seconds = best(shown, repeats)
     row("rodlab, shown", tip, points, seconds)
     if not chosen.quick:
-        with tempfile.TemporaryDirectory() as folder:
-            program = auto(Path(folder))
-            for name, setting in SETTINGS.items() if program else ():
-                runs = [run_auto(program, Path(folder), setting) for _ in range(repeats)]
-                row(name, runs[0][0], runs[0][1], min(run[2] for run in runs))
-            if program is None:
-                rows.append("AUTO: left out, bifpy or gfortran is not installed")
+        why = auto_missing()
+        if why:
+            rows.append(why)
+        else:
+            with closing(Auto()) as program:
+                for name, setting in SETTINGS.items():
+                    runs = [program.follow(TO, setting) for _ in range(repeats)]
+                    assert not runs[0].note, runs[0].note
+                    row(name, runs[0].tip_angle, runs[0].points, min(run.seconds for run in runs))
     for name, tol in (("solve_bvp, 1e-9", 7e-7), ("solve_bvp, 1e-10", 2e-7)):
         (tip, points), seconds = best(lambda t=tol: scipys(t), 1 if chosen.quick else 3)
         row(name, tip, points, seconds)

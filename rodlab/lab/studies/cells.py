@@ -1,0 +1,60 @@
+"""A cell: one question of a study as plain data, answered in any process as plain data.
+
+    Cell("measured:one", {...})  ->  {"value": ..., "error": ..., "cost": {"solve": ...}}
+
+What changes from run to run, times and memory, stands under "cost"; all else is the same to the last bit wherever a cell
+runs: libraries of linear algebra are held to one thread, and answers pass through JSON text.
+"""
+
+import json
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from typing import Any, NamedTuple
+
+ROOM = "rodlab.lab.studies"
+VOLATILE = "cost"
+
+
+class Cell(NamedTuple):
+    """A function of this room, "module:name", and its arguments."""
+
+    function: str
+    given: Mapping[str, Any]
+
+    @property
+    def key(self) -> str:
+        """The cell as text: equal for equal questions."""
+        return json.dumps([self.function, self.given], sort_keys=True)
+
+
+def answer(cell: Cell) -> dict[str, Any]:
+    """The cell's answer; what cannot be answered says so under "failed", in one sentence.
+
+    >>> found = answer(Cell("measured:one", {"question": {"quantity": "load"}, "method": "strut, end", "size": 2}))
+    >>> round(found["value"], 12), found["source"]
+    (1.527864045, 'closed form')
+    """
+    import numpy as np  # noqa: F401  what is limited must have been loaded
+    import scipy.linalg  # noqa: F401
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(limits=1):
+        try:
+            found = _function(cell.function)(**cell.given)
+        except (ValueError, ArithmeticError) as error:
+            found = {"failed": str(error)}
+        except MemoryError:
+            found = {"failed": "it does not fit into memory"}
+    plain: dict[str, Any] = json.loads(json.dumps(found))
+    return plain
+
+
+def settled(found: Mapping[str, Any]) -> dict[str, Any]:
+    """An answer without what changes from run to run."""
+    return {name: value for name, value in found.items() if name != VOLATILE}
+
+
+def _function(name: str) -> Callable[..., dict[str, Any]]:
+    module, _, function = name.partition(":")
+    found: Callable[..., dict[str, Any]] = getattr(import_module(f"{ROOM}.{module}"), function)
+    return found

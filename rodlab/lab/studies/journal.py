@@ -1,0 +1,63 @@
+"""The journal of a study: every finished cell, kept the moment it is finished, so that a killed study goes on where it was.
+
+An SQLite file: a cell is in it whole or not at all, whatever kills the process. Cells count only for the same code and
+libraries (`fingerprint`): numbers of two versions are never mixed.
+"""
+
+import json
+import sqlite3
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from rodlab.lab.studies.cells import Cell
+
+TABLES = """
+CREATE TABLE IF NOT EXISTS runs (id INTEGER PRIMARY KEY, provenance TEXT NOT NULL);
+CREATE TABLE IF NOT EXISTS cells (fingerprint TEXT, key TEXT, run INTEGER, answer TEXT NOT NULL, PRIMARY KEY (fingerprint, key));
+"""
+
+
+class Journal:
+    """Finished cells in a folder; `fingerprint` names the code and libraries that they hold for. A context manager."""
+
+    def __init__(self, folder: Path, fingerprint: str, provenance: Mapping[str, Any]) -> None:
+        self.path, self.fingerprint = folder / "cells.sqlite", fingerprint
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            self.file = sqlite3.connect(self.path, timeout=60.0)
+            self.file.execute("PRAGMA synchronous = NORMAL")
+            self.file.executescript(TABLES)
+            with self.file:
+                self.run = self.file.execute("INSERT INTO runs (provenance) VALUES (?)", (json.dumps(provenance),)).lastrowid
+        except OSError as error:
+            raise ValueError(f"{folder} cannot be written: {error.strerror or error}") from None
+        except sqlite3.Error as error:
+            raise ValueError(f"{self.path} is not the journal of a study, or cannot be written: {error}") from None
+
+    def __enter__(self) -> "Journal":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.file.close()
+
+    def known(self, cells: Sequence[Cell]) -> dict[int, dict[str, Any]]:
+        """The answers that are there already, by their place in the list."""
+        own = self.file.execute("SELECT key, answer FROM cells WHERE fingerprint = ?", (self.fingerprint,))
+        there = dict(own.fetchall())
+        return {i: json.loads(there[cell.key]) for i, cell in enumerate(cells) if cell.key in there}
+
+    def keep(self, cell: Cell, answer: Mapping[str, Any]) -> None:
+        """Write one answer, whole."""
+        row = (self.fingerprint, cell.key, self.run, json.dumps(answer))
+        with self.file:
+            self.file.execute("INSERT OR REPLACE INTO cells VALUES (?, ?, ?, ?)", row)
+
+    def runs(self, cells: Sequence[Cell]) -> list[dict[str, Any]]:
+        """Where and when these cells were computed, each run with their number."""
+        rows = self.file.execute("SELECT key, run FROM cells WHERE fingerprint = ?", (self.fingerprint,)).fetchall()
+        wanted = {cell.key for cell in cells}
+        counts = Counter(run for key, run in rows if key in wanted)
+        said = dict(self.file.execute("SELECT id, provenance FROM runs").fetchall())
+        return [{**json.loads(said[run]), "cells": counts[run]} for run in sorted(counts)]

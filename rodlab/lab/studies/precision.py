@@ -1,0 +1,186 @@
+"""The study of work and precision: one number by every method, its error against the time and the memory that it takes.
+
+    [work-precision]                                ask = {quantity = "tip_angle", mode = 1, lam = 4.93}
+    methods = ["strut, end", "rod, degree 4"]       repeats = 7         quick = {methods = [...], repeats = 3}
+
+Three times stand apart: the derivation by SymPy, which is shipped for the standard terms and timed anew in a fresh process; the
+set-up, once a model; the solve, the least and the median of repeats. Every method begins at the same modest guess.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from rodlab.lab.studies.cells import Cell
+from rodlab.lab.studies.convergence import names, only, question_of, rows_of, series, summary
+from rodlab.lab.studies.every import method_named, others, rivals
+from rodlab.lab.studies.series import exponent
+from rodlab.lab.table import small, table
+from rodlab.numerics.arrays import whole
+
+DECADES = tuple(10.0**-i for i in range(2, 14))
+NEARLY = 1.25  # ratio of times that is not told apart
+DERIVED = {"strut, end": ("strut", "end"), "strut, trapezoid": ("strut", "trapezoid"), "rod": ("rod", "")}
+
+
+def cells(model: Mapping[str, Any], given: Mapping[str, Any], *, quick: bool = False) -> list[Cell]:
+    """Every method at every size, the house's derivations, and, where asked for, the peers that are there."""
+    short = given.get("quick", {}) if quick else {}
+    only("work-precision.quick", short, ("methods", "repeats"))
+    own = {name: value for name, value in given.items() if name not in ("quick", "peers")} | short
+    ask = own.get("ask", {})
+    only("work-precision.ask", ask, ("quantity", "mode", "lam"))
+    question = {**question_of({**model, **ask}), "guess": "modest"}
+    repeats = whole("repeats", own.get("repeats", 5), least=1)
+    found = [Cell("derivations:derived", {"model": kind, "rule": rule}) for kind, rule in DERIVED.values()]
+    for name in _asked(own.get("methods"), question, peers=bool(given.get("peers"))):
+        for size in _sizes(name, quick=quick):
+            cell = {"question": question, "method": name, "size": size, "repeats": repeats, "memory": not name.startswith("AUTO")}
+            found.append(Cell("measured:one", cell))
+    return found
+
+
+def _asked(given: Any, question: Mapping[str, Any], *, peers: bool) -> list[str]:
+    """The methods named, or all; the others and the peers know only the tip angle of the uniform rod."""
+    uniform = (
+        question["quantity"] == "tip_angle" and question.get("u_hat", 0.0) == 0 and not isinstance(question.get("K", 1.0), str)
+    )
+    listed = names(given) if given else [method.name for method in others()]
+    every = [*listed, *(method.name for method in rivals() if peers)]
+    house = ("strut, end", "strut, trapezoid", "rod, ")
+    return [name for name in every if name.startswith(house) or uniform]
+
+
+def _sizes(name: str, *, quick: bool) -> Sequence[float]:
+    method = method_named(name)
+    if method.missing:
+        return method.sizes[:1]  # one row that says what is missing
+    return method.quick if quick else method.sizes
+
+
+def answer(cells: Sequence[Cell], results: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """{"rows", "methods", "best", "derivations", "sentence"}."""
+    pairs = list(zip(cells, results, strict=True))
+    derived = [{**cell.given, **found} for cell, found in pairs if cell.function == "derivations:derived"]
+    solved = [(cell, found) for cell, found in pairs if cell.function == "measured:one"]
+    every = series([cell for cell, _ in solved], [found for _, found in solved])
+    rows = [row for one in every for row in rows_of(one)]
+    best = [_best(rows, wanted) for wanted in DECADES]
+    methods = [{**summary(one), "least_error": min(one.column("error"), default=None)} for one in every]
+    told = [entry for entry in best if entry["cost"]["method"]]
+    return {"rows": rows, "methods": methods, "best": told, "derivations": derived, "cost": {"sentence": sentence(told)}}
+
+
+def _best(rows: Sequence[Mapping[str, Any]], wanted: float) -> dict[str, Any]:
+    """The fastest answer with an error of at most `wanted`, those nearly as fast, and the fastest peer.
+
+    A closed form, which knows one rod only, is not among them.
+    """
+    good = [row for row in rows if "value" in row and row["error"] <= wanted and not row["note"].startswith("wrong")]
+    peers, closed = {method.name for method in rivals()}, {method.name for method in others() if len(method.sizes) == 1}
+    ours = sorted((row for row in good if row["method"] not in peers | closed), key=_seconds)
+    theirs = sorted((row for row in good if row["method"] in peers), key=_seconds)
+    first = ours[0] if ours else None
+    told: dict[str, Any] = {
+        "method": first and first["method"],
+        "size": first and first["size"],
+        "solve": first and _seconds(first),
+    }
+    near = [row["method"] for row in ours if first and _seconds(row) <= NEARLY * _seconds(first)]
+    told["nearly"] = [name for name in dict.fromkeys(near) if name != told["method"]]
+    told |= {"peer": theirs[0]["method"] if theirs else None, "peer_solve": _seconds(theirs[0]) if theirs else None}
+    return {"error": wanted, "cost": told}
+
+
+def _seconds(row: Mapping[str, Any]) -> float:
+    return float(row["cost"]["solve"])
+
+
+def sentence(best: Sequence[Mapping[str, Any]]) -> str:
+    """Which method to use for which accuracy: neighbouring decades with one answer are one clause."""
+    clauses: list[list[Any]] = []
+    for entry in best:
+        if clauses and clauses[-1][0] == entry["cost"]["method"]:
+            clauses[-1][2], clauses[-1][3] = entry["error"], entry["cost"]["solve"]
+        else:
+            clauses.append([entry["cost"]["method"], entry["error"], entry["error"], entry["cost"]["solve"]])
+    said = [f"{_span(a, b)} {name} ({1e3 * seconds:.2g} ms)" for name, a, b, seconds in clauses]
+    if not said:
+        return "No method reached an error of 1e-2."
+    return f"For an error of {'; '.join(said)}."
+
+
+def _span(a: float, b: float) -> str:
+    return f"{a:.0e} use" if a == b else f"{a:.0e} to {b:.0e} use"
+
+
+def text(found: Mapping[str, Any]) -> str:
+    """Methods with what they reach and how they grow, the fastest for every accuracy, and the derivations."""
+    lines: list[list[Any]] = []
+    for row in found["methods"]:
+        own = [r for r in found["rows"] if r["method"] == row["method"] and "value" in r]
+        if not own:
+            continue
+        finest = min(own, key=lambda r: (r["error"], _seconds(r)))
+        cost = finest["cost"]
+        peak = "" if cost["peak_bytes"] is None else f"{cost['peak_bytes'] / 1e6:.2g}"
+        order = "" if not row["clear"] else f"{row['order']:.2f}"
+        times = [f"{1e3 * cost[name]:.2f}" for name in ("setup", "solve", "median")]
+        growths = [exponent(row["cost"], what) for what in ("solve", "peak_bytes")]
+        lines.append(
+            [row["method"], order, small(row["least_error"]), f"{finest['size']:g}", finest["unknowns"], *times, peak, *growths]
+        )
+    columns = [
+        "method",
+        "order",
+        "least error",
+        "at size",
+        "unknowns",
+        "set-up ms",
+        "solve ms",
+        "median",
+        "peak MB",
+        "time",
+        "memory",
+    ]
+    first = next((row for row in found["rows"] if "truth" in row), None)
+    parts = [
+        table(
+            "" if first is None else f"{first['quantity'].replace('_', ' ').capitalize()}: {first['truth']:.15g}", columns, lines
+        )
+    ]
+    parts.append(_fastest(found["best"]))
+    parts.append(_derivations(found["derivations"]))
+    left = dict.fromkeys(f"{row['method']}: {row['note']}" for row in found["rows"] if "value" not in row)
+    return "\n\n".join([*parts, *left, str(found["cost"]["sentence"])])
+
+
+def _fastest(best: Sequence[Mapping[str, Any]]) -> str:
+    lines: list[list[Any]] = []
+    for entry in best:
+        cost = entry["cost"]
+        peer = [cost["peer"] or "", "" if cost["peer_solve"] is None else f"{1e3 * cost['peer_solve']:.2f}"]
+        lines.append(
+            [
+                f"{entry['error']:.0e}",
+                cost["method"],
+                f"{cost['size']:g}",
+                f"{1e3 * cost['solve']:.2f}",
+                "; ".join(cost["nearly"]),
+                *peer,
+            ]
+        )
+    return table("The fastest for an error of at most", ["error", "method", "size", "ms", "nearly as fast", "peer", "ms"], lines)
+
+
+def _derivations(rows: Sequence[Mapping[str, Any]]) -> str:
+    lines: list[list[Any]] = [
+        [row["kernel"], row["functions"], *(f"{1e3 * row['cost'][name]:.0f}" for name in ("import", "derive", "compile"))]
+        for row in rows
+    ]
+    title = "Kernels, shipped, derived anew in a fresh process (ms)"
+    return table(title, ["kernel", "functions", "import SymPy", "derive", "compile"], lines)
+
+
+def complete(found: Mapping[str, Any]) -> bool:
+    """True when every cell was answered, or said what is missing."""
+    return all("value" in row or "left out" in row["note"] for row in found["rows"])
