@@ -13,7 +13,7 @@ import pytest
 
 import rodlab
 from rodlab import files
-from rodlab.lab import loads, store
+from rodlab.lab import store
 from rodlab.mechanics.expression import Expression
 from rodlab.mechanics.profile import Profile
 from rodlab.numerics.quadrature import integrals
@@ -175,12 +175,3 @@ def test_json_is_json_at_full_precision():
 
 def test_csv_is_tidy():
     assert store.as_csv(["n", "load"], [[np.int64(2), 1 / 3], [3, None]]) == f"n,load\n2,{1 / 3!r}\n3,\n"
-
-
-def test_extrapolation_gains_and_knows_its_error():
-    entries = list(loads.loads_against_n([4, 8, 16, 32, 64, 128], (1,), ("end",)))
-    best = loads.extrapolate(entries)
-    assert best.error <= best.estimate
-    assert best.error < 1e-4 * entries[-1].error
-    with_two = loads.extrapolate(entries[-2:])
-    assert entries[-1].error / with_two.error > 50

@@ -2,7 +2,7 @@
 
 import io
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,8 +13,9 @@ from rodlab.analysis.follow import Branch
 from rodlab.analysis.point import Point
 from rodlab.lab.branches import Found, Shown
 from rodlab.lab.curves import pieces
-from rodlab.lab.loads import ORDER, Extrapolated, Load
-from rodlab.lab.routes import Route
+
+if TYPE_CHECKING:  # a picture of a scene has no need of studies
+    from rodlab.lab.studies.series import Series
 
 FORMATS = (".png", ".pdf", ".svg")
 GREYS = ("0.0", "0.35", "0.6")
@@ -45,25 +46,25 @@ def drawn(fig: Figure, path: str) -> bytes:
     return out.getvalue()
 
 
-def loads_picture(loads: Sequence[Load], limits: Sequence[Extrapolated]) -> Figure:
+def loads_picture(loads: "Sequence[Series]") -> Figure:
     """Error of the buckling loads against n: one line a mode, one panel a rule, with the slope of its order."""
     fig, panels = figure(8.2, 3.9, ncols=2, sharey=True)
-    for axes, rule in zip(panels, ORDER, strict=True):
-        own = [entry for entry in loads if entry.rule == rule]
-        sizes = sorted({entry.n for entry in own})
-        modes = sorted({entry.mode for entry in own})
-        for mode, grey in zip(modes, GREYS, strict=False):
-            line = [entry for entry in own if entry.mode == mode]
-            errors = [entry.error / entry.limit for entry in line]
-            mark = {"marker": MARKS[rule], "ms": 1 + 2.6 * mode, "mfc": grey if mode == 1 else "w", "zorder": 5 - mode / 10}
-            axes.loglog(sizes, errors, color=grey, lw=1.2, label=f"mode {mode}", **mark)
-            best = next(limit for limit in limits if limit.rule == rule and limit.mode == mode)
-            axes.loglog(sizes[-1], max(best.error / best.limit, 1e-16), marker="*", color=grey, ms=9, ls="none", mec="k", mew=0.4)
-        _slope(axes, sizes, [entry.error / entry.limit for entry in own if entry.mode == modes[0]], ORDER[rule])
-        axes.set_title(f'rule "{rule}": order {ORDER[rule]}', fontsize=10)
+    for axes, (rule, mark) in zip(panels, MARKS.items(), strict=True):
+        own = [series for series in loads if series.method == f"strut, {rule}"]
+        for series, grey in zip(own, GREYS, strict=False):
+            mode, sizes = series.question.mode, series.sizes
+            errors = [found["error"] / found["truth"] for found in series.results]
+            style = {"marker": mark, "ms": 1 + 2.6 * mode, "mfc": grey if mode == 1 else "w", "zorder": 5 - mode / 10}
+            axes.loglog(sizes, errors, color=grey, lw=1.2, label=f"mode {mode}", **style)
+            if series.limit is not None:
+                truth = series.results[0]["truth"]
+                best = max(abs(series.limit.value / truth - 1), 1e-16)
+                axes.loglog(sizes[-1], best, marker="*", color=grey, ms=9, ls="none", mec="k", mew=0.4)
+        _slope(axes, own[0].sizes, [found["error"] / found["truth"] for found in own[0].results], own[0].order or 1)
+        axes.set_title(f'rule "{rule}": order {own[0].order}', fontsize=10)
         axes.set_xlabel("number of joints $n$")
         axes.grid(True, which="major", lw=0.3, color="0.85")
-        axes.text(sizes[-1] / 1.5, 1e-13, "extrapolated\nfrom all $n$", fontsize=8, color="0.25", ha="right", va="center")
+        axes.text(own[0].sizes[-1] / 1.5, 1e-13, "extrapolated\nfrom all $n$", fontsize=8, color="0.25", ha="right", va="center")
     panels[0].set_ylabel(r"relative error $|\lambda_j(n) - \lambda_j|\,/\,\lambda_j$")
     panels[0].legend(fontsize=8, frameon=False, loc="center left", bbox_to_anchor=(0.0, 0.42))
     return fig
@@ -91,18 +92,15 @@ def shapes_picture(columns: Sequence[tuple[int, Sequence[Found], float]]) -> Fig
     return fig
 
 
-def routes_picture(routed: Sequence[Route]) -> Figure:
+def routes_picture(routed: "Sequence[Series]") -> Figure:
     """Error of a tip angle against the number of unknowns, one line a method."""
     fig, axes = figure(6.4, 4.6)
-    methods = list(dict.fromkeys(route.method for route in routed))
-    marks = dict(zip(methods, "os^vDP*X", strict=False))
-    for method in methods:
-        own = [route for route in routed if route.method == method]
-        shown = [route for route in own if route.error > 0]
-        strut = method.startswith("strut")
-        style = {"color": "0.5" if strut else "0.0", "mfc": "0.5" if strut else "w", "marker": marks[method], "ms": 4.5}
-        label = f"{method}: order {own[0].order}"
-        axes.loglog([r.unknowns for r in shown], [r.error for r in shown], lw=1.1, label=label, **style)
+    for series, mark in zip(routed, "os^vDP*X", strict=False):
+        shown = [found for found in series.results if found["error"] > 0]
+        strut = series.method.startswith("strut")
+        style = {"color": "0.5" if strut else "0.0", "mfc": "0.5" if strut else "w", "marker": mark, "ms": 4.5}
+        label = f"{series.method}: order {series.order}"
+        axes.loglog([found["unknowns"] for found in shown], [found["error"] for found in shown], lw=1.1, label=label, **style)
     axes.legend(fontsize=8, frameon=False, loc="lower right")
     axes.set_xlabel("number of unknowns: joints, or nodes of the collocated rod")
     axes.set_ylabel(r"error of the tip angle $|\phi(1) - \alpha|$ (radians)")
@@ -225,7 +223,7 @@ def _clamp(axes: Axes) -> None:
         axes.plot([x, x - 0.03], [0, -0.045], color="k", lw=0.7)
 
 
-def _slope(axes: Axes, sizes: Sequence[int], errors: Sequence[float], order: int) -> None:
+def _slope(axes: Axes, sizes: Sequence[float], errors: Sequence[float], order: int) -> None:
     """A small triangle under the line that shows its slope."""
     i = len(sizes) // 2
     a, b = sizes[i], 2 * sizes[i]

@@ -16,10 +16,10 @@ from rodlab.analysis.follow import Branch, follow
 from rodlab.files import write_whole
 from rodlab.lab.answers import branches_table
 from rodlab.lab.branches import Found, Shown, detached, mode_branch, on, straight, timed, trivial
-from rodlab.lab.loads import Extrapolated, Load, exact_load, extrapolate, loads_against_n
+from rodlab.lab.limits import loads_against_n, routes, rows_of_limits, rows_of_loads, rows_of_routes
 from rodlab.lab.picture import diagram_picture, loads_picture, png, routes_picture, shapes_picture
-from rodlab.lab.routes import Route, routes
 from rodlab.lab.store import as_csv, as_json, framed
+from rodlab.lab.studies.reference import exact_load
 from rodlab.lab.table import known_to, small, table
 from rodlab.mechanics.buckling import Buckling, buckling, buckling_loads
 from rodlab.mechanics.joints import RULES
@@ -39,8 +39,7 @@ SHAPES = (1.02, 1.1, 1.3, 1.7, 2.5, 5.0)  # loads over the buckling load
 def tour(folder: Path) -> tuple[dict[str, Any], str]:
     """Compute everything, write the folder, and return the answer for JSON and the text for the terminal."""
     start = time.perf_counter()
-    loads = list(_progress(loads_against_n(SIZES, MODES), "buckling loads", len(RULES) * len(SIZES) * len(MODES)))
-    limits = [extrapolate([e for e in loads if (e.rule, e.mode) == (r, m)]) for r in RULES for m in MODES]
+    loads = list(_progress(loads_against_n(SIZES, MODES), "buckling loads", len(RULES) * len(MODES)))
     rod = buckling(Rod(), len(MODES))
     routed = list(_progress(routes(ROUTED * exact_load(1), SIZES, INTERVALS), "routes", None))
     strut = Strut(n=JOINTS)
@@ -48,12 +47,12 @@ def tour(folder: Path) -> tuple[dict[str, Any], str]:
     shown = list(_progress(diagram(strut, known), "branches", len(MODES) + 3))
     columns = [(m, list(shapes(shown[m].branch, m, known[m - 1])), known[m - 1]) for m in MODES]
     states = list(before_and_after(strut, known, shown))
-    answer = framed("tour", time.perf_counter() - start, _answer(loads, limits, states, shown))
+    answer = framed("tour", time.perf_counter() - start, _answer(states, shown))
+    answer |= {"loads": rows_of_loads(loads), "extrapolated": rows_of_limits(loads), "routes": rows_of_routes(routed)}
     answer["rod"] = [{"mode": j, "load": x, "error": e} for j, x, e in zip(rod.numbers, rod.loads, rod.error, strict=True)]
-    answer["routes"] = [vars(route) for route in routed]
     files: dict[str, bytes | str] = {
         "diagram.png": png(diagram_picture(shown, known)),
-        "loads.png": png(loads_picture(loads, limits)),
+        "loads.png": png(loads_picture(loads)),
         "shapes.png": png(shapes_picture(columns)),
         "routes.png": png(routes_picture(routed)),
         "routes.csv": as_csv(*_columns(answer["routes"])),
@@ -64,7 +63,7 @@ def tour(folder: Path) -> tuple[dict[str, Any], str]:
     }
     answer["files"] = [str(write_whole(folder / name, content)) for name, content in files.items()]
     answer["seconds"] = time.perf_counter() - start
-    return answer, _text(answer, loads, limits, states, shown, rod, routed)
+    return answer, _text(answer, states, shown, rod)
 
 
 def diagram(strut: Strut, known: Sequence[float]) -> Iterator[Shown]:
@@ -97,12 +96,8 @@ def _progress(entries: Iterable[Any], what: str, total: int | None) -> Iterable[
     return tqdm(entries, desc=what, total=total, delay=2, leave=False)
 
 
-def _answer(
-    loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found], shown: Sequence[Shown]
-) -> dict[str, Any]:
+def _answer(states: Sequence[Found], shown: Sequence[Shown]) -> dict[str, Any]:
     return {
-        "loads": [{**vars(e), "error": e.error} for e in loads],
-        "extrapolated": [{**vars(e), "error": e.error} for e in limits],
         "joints": JOINTS,
         "equilibria": [
             {
@@ -128,11 +123,8 @@ def _columns(rows: Sequence[dict[str, Any]]) -> tuple[list[str], list[list[Any]]
     return list(rows[0]), [list(row.values()) for row in rows]
 
 
-def _text(
-    answer: dict[str, Any], loads: Sequence[Load], limits: Sequence[Extrapolated], states: Sequence[Found],
-    shown: Sequence[Shown], rod: Buckling, routed: Sequence[Route],
-) -> str:  # fmt: skip
-    parts = [*(_loads_table(rule, loads, limits, rod) for rule in RULES), _routes_table(routed)]
+def _text(answer: dict[str, Any], states: Sequence[Found], shown: Sequence[Shown], rod: Buckling) -> str:
+    parts = [*(_loads_table(rule, answer, rod) for rule in RULES), _routes_table(answer["routes"])]
     parts.append(
         table(
             f"Equilibria of the strut, n = {JOINTS}, before and after buckling",
@@ -158,31 +150,34 @@ def _text(
     return "\n\n".join(parts)
 
 
-def _routes_table(routed: Sequence[Route]) -> str:
+def _routes_table(routed: Sequence[dict[str, Any]]) -> str:
     """Each method at its coarsest, its best, and in between; the orders above rounding."""
     rows: list[list[Any]] = []
-    for method in dict.fromkeys(route.method for route in routed):
-        own = [route for route in routed if route.method == method]
-        orders = [f"{route.observed:.2f}" for route in own if route.observed is not None]
-        best = min(own, key=lambda route: route.error)
-        rows.append([method, own[0].order, " ".join(orders[-3:]), best.unknowns, small(best.error), f"{1e3 * best.seconds:.1f}"])
+    for method in dict.fromkeys(route["method"] for route in routed):
+        own = [route for route in routed if route["method"] == method]
+        orders = [f"{route['observed']:.2f}" for route in own if route["observed"] is not None]
+        best = min(own, key=lambda route: float(route["error"]))
+        known = [own[0]["order"], " ".join(orders[-3:]), best["unknowns"], small(best["error"]), f"{1e3 * best['seconds']:.1f}"]
+        rows.append([method, *known])
     title = f"Three routes to the tip angle of mode 1 at {ROUTED:g} times its load: errors against the exact elastica"
     return table(title, ["method", "order", "last observed", "unknowns", "error", "ms"], rows)
 
 
-def _loads_table(rule: str, loads: Sequence[Load], limits: Sequence[Extrapolated], rod: Buckling) -> str:
+def _loads_table(rule: str, answer: dict[str, Any], rod: Buckling) -> str:
     rows: list[list[Any]] = []
-    own = [e for e in loads if e.rule == rule]
+    loads, best = ([e for e in answer[name] if e["rule"] == rule] for name in ("loads", "extrapolated"))
     for n in SIZES:
-        at = [e for e in own if e.n == n]
-        cells = [c for e in at for c in (f"{e.load:.9f}", small(e.error), "" if e.order is None else f"{e.order:.2f}")]
-        rows.append([n, *cells, f"{1e3 * sum(e.seconds for e in at):.2f}"])
-    best = [e for e in limits if e.rule == rule]
-    rows.append(["extrapolated", *(c for e in best for c in (known_to(e.load, e.estimate)[:14], small(e.error), "")), ""])
-    rows.append(["its estimate", *(c for e in best for c in ("", small(e.estimate), "")), ""])
+        at = [e for e in loads if e["n"] == n]
+        orders = ["" if e["order"] is None else f"{e['order']:.2f}" for e in at]
+        cells = [c for e, order in zip(at, orders, strict=True) for c in (f"{e['load']:.9f}", small(e["error"]), order)]
+        rows.append([n, *cells, f"{1e3 * sum(e['seconds'] for e in at):.2f}"])
+    rows.append(
+        ["extrapolated", *(c for e in best for c in (known_to(e["load"], e["estimate"])[:14], small(e["error"]), "")), ""]
+    )
+    rows.append(["its estimate", *(c for e in best for c in ("", small(e["estimate"]), "")), ""])
     both = list(zip(rod.loads, rod.error, best, strict=True))
-    rows.append(["rod, collocated", *(c for x, e, limit in both for c in (f"{x:.11f}", small(abs(x - limit.limit)), "")), ""])
-    rows.append(["its bound", *(c for _, e, _ in both for c in ("", small(e), "")), ""])
-    rows.append(["rod, exact", *(c for e in best for c in (f"{e.limit:.11f}", "", "")), ""])
+    rows.append(["rod, collocated", *(c for x, _, e in both for c in (f"{x:.11f}", small(abs(x - e["limit"])), "")), ""])
+    rows.append(["its bound", *(c for _, bound, _ in both for c in ("", small(bound), "")), ""])
+    rows.append(["rod, exact", *(c for e in best for c in (f"{e['limit']:.11f}", "", "")), ""])
     header = ["n", *(c for m in MODES for c in (f"load {m}", "error", "order")), "ms"]
     return table(f'Buckling loads of the uniform strut, rule "{rule}", and their limit', header, rows)
