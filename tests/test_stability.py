@@ -139,7 +139,7 @@ def test_the_layer_is_that_of_the_quadrature(u_hat, lam):
 
 def test_layers_wound_too_far_are_refused():
     with pytest.raises(ValueError, match="u_hat must be at most"):
-        rod_truths.layer_tip(3.0, -1.0)
+        rod_truths.layer_tip(30.0, -100.0)
 
 
 # --- the judge ---------------------------------------------------------------------------------------------------------

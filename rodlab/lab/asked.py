@@ -90,7 +90,7 @@ def _study(scene: Scene, _: Mapping[str, Any]) -> Answer:
     from rodlab.lab.studies.study import study
 
     found = study(scene)
-    return Answer(found.answer, found.text, found.figure, found.complete)
+    return Answer(found.answer, found.said, found.figure, found.complete)
 
 
 def _strut(scene: Scene, name: str) -> Strut:

@@ -186,6 +186,8 @@ def mesh_load(rod: "Rod", j: int) -> tuple[float, float]:
     >>> round(load, 12), rounding < 1e-13
     (2.745166004061, True)
     """
+    if j > rod.size:
+        raise ValueError(f"mode must be at most {rod.size}, the number of unknowns on the mesh; it is {j}")
     pencil = Pencil(rod, rod.mesh, rod.degree)
     load, rounding, _ = _alone(pencil, j, *_isolated(pencil, j, _guess(rod, j, [])))
     return load, rounding
@@ -249,16 +251,17 @@ def _isolated(pencil: Pencil, j: int, guess: float) -> tuple[float, float]:
     """Bounds around load j: j - 1 loads are certainly below the one, j below the other, and no more."""
     low, high = guess * (1 - 0.5 / j), guess * (1 + 0.5 / j)
     at_low, at_high = pencil.below(low), pencil.below(high)
-    for _ in range(TRIES):
+    for tries in range(TRIES):
+        grow = (1 + 1 / j if j > 2 else 2) ** (1 + tries // 8)  # a guess by the continuum is far off where a mesh is coarse
         if at_low[1] >= j:  # too high for a lower bound
             if at_low[0] >= j:
                 high, at_high = low, at_low
-            low /= 1 + 1 / j if j > 2 else 2
+            low /= grow
             at_low = pencil.below(low)
         elif at_high[0] < j:
             if at_high[1] < j:
                 low, at_low = high, at_high
-            high *= 1 + 1 / j if j > 2 else 2
+            high *= grow
             at_high = pencil.below(high)
         elif at_low == (j - 1, j - 1) and at_high == (j, j):
             return low, high

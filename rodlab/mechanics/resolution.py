@@ -13,6 +13,7 @@ import numpy as np
 
 from rodlab.mechanics import rod_bounds
 from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.bordered import Bordered
 from rodlab.numerics.collocated import BandFactor, Collocated, Condensed
 from rodlab.numerics.collocation import Grid
 from rodlab.numerics.difference import DifferenceForm, Springs
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from rodlab.mechanics.rod import Rod
 
 COARSE, LEVELS = 1e-7, 3  # an error from which on the companion is doubted, and companions that are asked in turn
+HIGH = 16  # degree of a companion that is trusted
 CHORD = 1e-8  # a correction of the angles after which the companion's derivative is as it was
 SAFE = 2.0  # on what the companion changes
 RESOLVED = 0.9 * np.pi**2  # of h^2 lam cos(phi) / K: an interval by itself, its ends held, is stable
@@ -109,16 +111,36 @@ def _missed_tip(known: Corrected, tip: float, lam: float) -> float:
 
 
 def missed(rod: "Rod", u: Array, lam: float, v: Array) -> tuple[float, float]:
-    """How much the mesh misses of v . F and of v . J v, by the companion: what moves folds and branch points.
+    """How much the mesh misses of v . F and of v . J v at a null vector v: what moves folds and branch points.
 
-    Where v is a null vector both are stationary, so that u and v need not be those of the companion; what they miss of
-    its own comes to as much again, to leading order.
+    On the companion, u and v are corrected by bordered systems first (Lyapunov and Schmidt's reduction): what is left of F stands
+    along v. Companions of companions are asked until they agree. Infinite where that leads nowhere.
     """
-    fine = rod.companion
-    w, finer = fine.moved(rod, v, direction=True), fine.moved(rod, u)
-    force = float(w @ fine.residual_wide(finer, lam)) - float(v @ rod.residual_wide(u, lam))
-    stiffness = quadratic(fine.jacobian(finer, lam), w)[0] - quadratic(rod.jacobian(u, lam), v)[0]
-    return 2 * SAFE * abs(force), 2 * SAFE * abs(stiffness)
+    own = np.array([float(v @ rod.residual_wide(u, lam)), quadratic(rod.jacobian(u, lam), v)[0]])
+    found, change = np.zeros(2), np.full(2, np.inf)
+    for level in range(LEVELS):
+        fine = rod.companion
+        try:
+            u, v, reduced = _reduced(fine, fine.moved(rod, u), fine.moved(rod, v, direction=True), lam)
+        except (ArithmeticError, ValueError):
+            return (np.inf, np.inf) if not level else tuple(SAFE * (np.abs(found) + change))
+        change, found, rod = np.abs(reduced - own - found), reduced - own, fine
+        if (change <= 0.05 * np.abs(found)).all() or fine.degree >= HIGH:
+            break
+    force, stiffness = SAFE * np.abs(found)
+    return float(force), float(stiffness)
+
+
+def _reduced(fine: "Rod", u: Array, v: Array, lam: float) -> tuple[Array, Array, Array]:
+    """u where F has no part but along v, v where J v has none either, and (v . F, v . J v) there."""
+    size = float(v @ v)
+    for _ in range(2):
+        J = fine.jacobian(u, lam)
+        bordered = Bordered(J, J.factor(), B=v[:, None], C=v[:, None], D=np.zeros((1, 1)))
+        step, _ = bordered.solve(-fine.residual_wide(u, lam), np.zeros(1))
+        turned, _ = bordered.solve(np.zeros(u.size), np.array([size]))
+        u, v = u + step, turned
+    return u, v, np.array([float(v @ fine.residual_wide(u, lam)), quadratic(fine.jacobian(u, lam), v)[0]])
 
 
 def inertia(rod: "Rod", u: Array, lam: float) -> Inertia:

@@ -2,8 +2,9 @@
 
     e(n) = C n^-p (1 + c n^-q + ...)      p_i = log(e_{i-1} / e_i) / log(n_i / n_{i-1}) = p + c' n_i^-q + ...
 
-Observed orders p_i settle with n until rounding takes over. The order told is the last pair's, extrapolated by its own trend; its
-uncertainty is what that changed, how far the pair is apart, and what rounding of the errors can do to it.
+Observed orders p_i settle with n until rounding takes over. The order told is that of the last pair that is clear, extrapolated
+by its own trend; its uncertainty is what that changed, how far the pair is apart, what the pair before would have told, and
+what rounding of the errors can do to it.
 Limits by Richardson's extrapolation [Joyce, SIAM Rev. 13 (1971) 435]; for errors in powers of h^q it is Neville's scheme in h^q.
 """
 
@@ -17,6 +18,7 @@ from rodlab.numerics.arrays import Array, vector
 
 CLEAR = 30.0  # times its noise an error must be to tell an order
 FLAT = 10.0  # ratio of errors on a floor
+NEAR = 100.0  # times rounding, within which few errors that do not fall are a floor
 SETTLED = 0.1  # change of the observed order within which a method is said to have reached its own
 
 
@@ -68,7 +70,7 @@ def observed_order(
     """
     n, e = _checked(sizes, errors)
     level = np.broadcast_to(np.asarray(noise, dtype=np.float64), e.shape)
-    below = _floor_from(e)
+    below = _floor_from(e, level)
     floor = None if below is None else float(e[below:].max())
     level = np.maximum(level, 0.0 if floor is None else floor)
     clear = (e > CLEAR * level) & (e > 0)
@@ -80,8 +82,7 @@ def observed_order(
     if len(known) < 2:
         only = known[0] if known else None
         return Observed(only, None, tuple(local), 0 if known else None, 1 if known else None, floor, below)
-    told = [_told(n, e, level, local, i, step) for i in range(2, usable)]
-    order, uncertainty, at = min(told, key=lambda entry: (entry[1], -entry[2]))
+    order, uncertainty, at = _told(n, e, level, known, step)
     first = last = at
     while first > 1 and _near(local[first - 1], order):
         first -= 1
@@ -90,19 +91,37 @@ def observed_order(
     return Observed(order, uncertainty, tuple(local), first - 1, last, floor, below)
 
 
-def _floor_from(e: Array) -> int | None:
-    """The row from which errors only fluctuate, within FLAT of the last two; None where they fall to the end."""
+def _floor_from(e: Array, level: Array) -> int | None:
+    """The row from which errors only fluctuate, within FLAT of the last two; None where they fall to the end.
+
+    Fewer than four rows are a floor only where rounding is near.
+    """
     last = float(e[-2:].max())
     tail = next(i for i in range(len(e)) if e[i:].max() <= FLAT * last)
-    return next((i for i in range(tail, len(e) - 1) if e[i] <= e[i + 1]), None)
+    first = next((i for i in range(tail, len(e) - 1) if e[i] <= e[i + 1]), None)
+    if first is None or (len(e) - first < 4 and e[first:].max() > NEAR * float(level[first:].max())):
+        return None
+    return first
 
 
-def _told(n: Array, e: Array, level: Array, local: Sequence[float | None], i: int, step: int) -> tuple[float, float, int]:
-    """(order, uncertainty, row) by the local orders of rows i - 1 and i."""
-    before, here = float(local[i - 1] or 0.0), float(local[i] or 0.0)
-    trend = (here - before) / ((n[i] / n[i - 1]) ** step - 1)
-    rounding = sum(level[j] / e[j] for j in (i - 2, i - 1, i)) / np.log(n[i] / n[i - 1])
-    return float(here + trend), float(abs(trend) + abs(here - before) + rounding), i
+def _told(n: Array, e: Array, level: Array, local: Sequence[float], step: int) -> tuple[float, float, int]:
+    """(order, uncertainty, row): of the last pair of local orders that is clear and that no later one contradicts.
+
+    With e = C n^-p (1 + c n^-q) the local orders are p + c g, g the change of n^-q over that of log n.
+    """
+    g = -np.diff(n ** -float(step)) / np.diff(np.log(n))
+    last: tuple[float, float, int] | None = None
+    guesses = [local[i] + (local[i] - local[i - 1]) * g[i] / (g[i - 1] - g[i]) for i in range(1, len(local))]
+    for i in range(len(local) - 1, 0, -1):
+        guess = float(guesses[i - 1])
+        spread = abs(guess - local[i]) + abs(local[i] - local[i - 1])
+        spread += abs(guess - float(guesses[i - 2])) if i > 1 else 0.0
+        rounding = sum(level[j] / e[j] for j in (i - 1, i, i + 1)) / np.log(n[i + 1] / n[i])
+        found = guess, float(spread + rounding), i + 1
+        last = found if last is None else last
+        if found[1] <= SETTLED and all(abs(later - guess) <= SETTLED + found[1] for later in local[i + 1 :]):
+            return found
+    return last or (local[-1], np.inf, len(local))
 
 
 def _near(local: float | None, order: float) -> bool:
@@ -130,7 +149,8 @@ def richardson(
         growing *= float((ratio[-1] + 1) / (ratio[-1] - 1))
         column = column[1:] + np.diff(column) / (ratio - 1)
         columns.append(list(map(float, column)))
-        change = max(abs(float(column[-1]) - best), *np.abs(np.diff(column[-2:])), 0.0) + growing
+        slow = max(1.0, float(1 / (ratio[-1] - 1)))  # sizes that are near each other change little
+        change = max(abs(float(column[-1]) - best), *(slow * np.abs(np.diff(column[-2:]))), 0.0) + growing
         if change < estimate:
             best, estimate, used = float(column[-1]), change, k
         elif stages is None:

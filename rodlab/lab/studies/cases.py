@@ -14,13 +14,15 @@ Verdicts: see `rodlab.lab.studies.judge`. Times stand under "cost" alone; all el
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
+import mpmath as mp
 import numpy as np
 
 from rodlab.analysis.equilibrium import equilibrium as solved
 from rodlab.lab.studies import costs, truths
+from rodlab.lab.studies.cells import is_sentence
 from rodlab.lab.studies.judge import judged, judged_index, judged_naively, refused, unjudged
 from rodlab.lab.studies.naive import load_from_entries
 from rodlab.lab.studies.rod_truths import layer_tip, rod_load
@@ -47,6 +49,7 @@ def loads(n: int, K: Given = 1.0, rule: str = "end", mode: int = 1) -> dict[str,
     try:
         found, spent = _spent(lambda: buckling(strut, [mode]))
     except (ValueError, ArithmeticError) as error:
+        _meant(error)
         return {**said, **refused(error, truth), "cost": {"truth": cost}}
     load = float(found.loads[0])
     verdict = judged(load, truth, float(found.error[0]))
@@ -66,6 +69,7 @@ def equilibrium(
     try:
         p, spent = _spent(lambda: _with_answers(solved(strut, lam, _function(guess))))
     except (ValueError, ArithmeticError) as error:
+        _meant(error)
         return {**said, **refused(error), "condition": math.nan, "cost": {}}
     said |= {"condition": condition(strut, p.u, lam), "index": p.index, "index_verified": p.index_verified}
     try:
@@ -103,10 +107,12 @@ def layer(lam: float, u_hat: float = 1.0, K: float = 1.0, guess: str | None = No
         "layer", "layer at the free end", f"lam = {lam:g}, u_hat = {u_hat:g}, K = {K:g}{_from(guess)}", "tip angle", None
     )
     truth, unsure = layer_tip(u_hat, lam, K)
+    with mp.workdps(40):
+        upper = 2 * mp.pi - truth  # the saddle between this layer and one turn more
     half = u_hat / 2 * math.sqrt(K / -lam)
     kappa = half / math.sqrt(1 - half * half) / abs(float(truth))
     rod = rod_with(K, u_hat)
-    return _of_rod(said, lambda: _with_answers(solved(rod, lam, _function(guess))), truth, unsure, kappa)
+    return _of_rod(said, lambda: _with_answers(solved(rod, lam, _function(guess))), ((truth, 0), (upper, 1)), unsure, kappa)
 
 
 def elastica(ratio: float, mode: int = 1) -> dict[str, Any]:
@@ -115,11 +121,11 @@ def elastica(ratio: float, mode: int = 1) -> dict[str, Any]:
     known = exact_elastica(lam, mode)
     said = _head("elastica", f"mode {mode}", f"mode {mode}, lam = {ratio:g} lam_{mode}", "tip angle", None)
     rod = rod_with(1.0, 0.0)
-    guess = known.shape.phi.round(2)  # to two decimals: near the branch, no nearer
-    places = known.shape.s
+    size, places = abs(known.tip_angle), known.shape.s
+    guess = size * (known.shape.phi / size).round(2)  # to a hundredth: near the branch, no nearer
     return _of_rod(
         said, lambda: _with_answers(solved(rod, lam, lambda s: np.interp(s, places, guess))),
-        known.tip_angle, known.error, known.condition,
+        ((known.tip_angle, mode - 1),), known.error, known.condition,
     )  # fmt: skip
 
 
@@ -132,6 +138,7 @@ def rod_loads(K: Given = 1.0, mode: int = 1) -> dict[str, Any]:
     try:
         found, spent = _spent(lambda: buckling(rod_with(K, 0.0), [mode]))
     except (ValueError, ArithmeticError) as error:
+        _meant(error)
         return {**said, **refused(error, truth), "cost": {"truth": cost}}
     verdict = judged(float(found.loads[0]), truth, float(found.error[0]))
     return {**said, "backward": verdict["forward"], **verdict, "cost": {**spent, "truth": cost}}
@@ -163,14 +170,22 @@ def _exact(strut: Strut, phi: Array, lam: float, error: float) -> tuple[Any, flo
     return tip, unsure, known.residual, truths.exact_count(strut.joints.k, truths.pressed(strut, known, lam))
 
 
-def _of_rod(said: dict[str, Any], solve: Callable[[], Any], truth: Any, unsure: float, kappa: float) -> dict[str, Any]:
+def _of_rod(
+    said: dict[str, Any], solve: Callable[[], Any], known: Sequence[tuple[Any, int]], unsure: float, kappa: float
+) -> dict[str, Any]:
+    """Judge a rod's tip angle and index by the nearest of the solutions (tip angle, index) that are known."""
     said["condition"] = kappa
     try:
         p, spent = _spent(solve)
     except (ValueError, ArithmeticError) as error:
-        return {**said, **refused(error, truth), "cost": {}}
+        _meant(error)
+        return {**said, **refused(error, known[0][0]), "cost": {}}
+    truth, index = min(known, key=lambda one: abs(float(one[0]) - p.tip_angle))
     verdict = judged(p.tip_angle, truth, p.error, verified=p.index_verified, unsure=unsure)
-    return {**said, "index": p.index, "backward": verdict["forward"] / kappa, **verdict, "cost": spent}
+    if judged_index(p.index, p.index + p.nullity, index)["verdict"] == "WRONG":
+        verdict["verdict"] = "WRONG"
+    told = {"index": p.index, "index_verified": p.index_verified, "index_truth": index}
+    return {**said, **told, "backward": verdict["forward"] / kappa, **verdict, "cost": spent}
 
 
 def _oettli_prager(strut: Strut, phi: Array, lam: float, residual: Array) -> float:
@@ -203,6 +218,12 @@ def _timed(question: Callable[[], Any]) -> tuple[Any, float]:
     start = time.perf_counter()
     found = question()
     return found, time.perf_counter() - start
+
+
+def _meant(error: Exception) -> None:
+    """Raise it again unless it is a sentence of the house's: a crash is no refusal."""
+    if not is_sentence(error):
+        raise error
 
 
 def _spent(question: Callable[[], Any]) -> tuple[Any, dict[str, Any]]:

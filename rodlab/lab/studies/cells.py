@@ -11,6 +11,8 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any, NamedTuple
 
+from rodlab.analysis.newton import NoConvergence
+
 ROOM = "rodlab.lab.studies"
 VOLATILE = "cost"
 
@@ -28,7 +30,7 @@ class Cell(NamedTuple):
 
 
 def answer(cell: Cell) -> dict[str, Any]:
-    """The cell's answer; what cannot be answered says so under "failed", in one sentence.
+    """The cell's answer; what cannot be answered says so under "failed", in one sentence, and "crashed" if nobody meant it.
 
     >>> found = answer(Cell("measured:one", {"question": {"quantity": "load"}, "method": "strut, end", "size": 2}))
     >>> round(found["value"], 12), found["source"]
@@ -41,12 +43,19 @@ def answer(cell: Cell) -> dict[str, Any]:
     with threadpool_limits(limits=1):
         try:
             found = _function(cell.function)(**cell.given)
-        except (ValueError, ArithmeticError) as error:
-            found = {"failed": str(error)}
-        except MemoryError:
-            found = {"failed": "it does not fit into memory"}
+        except Exception as error:  # noqa: BLE001  one cell must not take the others with it
+            found = (
+                {"failed": str(error)} if is_sentence(error) else {"failed": f"{type(error).__name__}: {error}", "crashed": True}
+            )
     plain: dict[str, Any] = json.loads(json.dumps(found))
     return plain
+
+
+def is_sentence(error: Exception) -> bool:
+    """True for what the house raises to say why there is no answer; anything else is a crash, of numpy's kinds of these too."""
+    if isinstance(error, MemoryError):
+        return True
+    return type(error) in (ValueError, ArithmeticError, NoConvergence) and "broadcast" not in str(error)
 
 
 def settled(found: Mapping[str, Any]) -> dict[str, Any]:

@@ -24,6 +24,7 @@ JOINTS, INTERVALS = tuple(2**i for i in range(4, 15)), (6, 8, 10, 12, 16, 24, 32
 METHODS = ("strut, end", "strut, trapezoid", "rod, degree 1", "rod, degree 2", "rod, degree 3", "rod, degree 4")
 ASKS = ("quantity", "mode", "lam", "K", "u_hat", "breaks", "methods", "joints", "intervals")
 OF_MODEL = ("K", "u_hat", "breaks")
+GROUP = ("quantity", "mode", "lam", "K", "u_hat")  # what one question of a table is known by
 
 
 def cells(model: Mapping[str, Any], given: Mapping[str, Any], *, quick: bool = False) -> list[Cell]:
@@ -100,7 +101,8 @@ def series(cells: Sequence[Cell], results: Sequence[Mapping[str, Any]]) -> list[
 def answer(cells: Sequence[Cell], results: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """{"rows": one a cell, "orders": one a question and method}: everything that tables, pictures and files are made of."""
     every = series(cells, results)
-    return {"rows": [row for one in every for row in rows_of(one)], "orders": [summary(one) for one in every]}
+    rows, orders = [row for one in every for row in rows_of(one)], [summary(one) for one in every]
+    return {"rows": rows, "orders": orders, "crashed": sum("crashed" in found for found in results)}
 
 
 def rows_of(one: Series) -> list[dict[str, Any]]:
@@ -169,7 +171,7 @@ def only(what: str, given: Any, known: Sequence[str]) -> None:
 def text(found: Mapping[str, Any]) -> str:
     """One table a question: orders, floors, limits, growth."""
     parts = []
-    for _, group in groupby(found["orders"], key=lambda row: [row[name] for name in ("quantity", "mode", "lam", "K", "u_hat")]):
+    for _, group in groupby(found["orders"], key=_title_key):
         rows = list(group)
         parts.append(_counted(rows) if rows[0]["quantity"] == COUNTED else _converging(rows))
     failed = [row for row in found["rows"] if "value" not in row]
@@ -213,5 +215,10 @@ def _title(row: Mapping[str, Any]) -> str:
 
 
 def complete(found: Mapping[str, Any]) -> bool:
-    """True when every cell was answered."""
-    return all("value" in row for row in found["rows"])
+    """True when every method answered some of its cells, and none crashed."""
+    answered = {(row["method"], _title_key(row)) for row in found["rows"] if "value" in row}
+    return all((row["method"], _title_key(row)) in answered for row in found["rows"]) and not found["crashed"]
+
+
+def _title_key(row: Mapping[str, Any]) -> tuple[Any, ...]:
+    return tuple(row[name] for name in GROUP)

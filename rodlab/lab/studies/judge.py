@@ -120,6 +120,8 @@ def _off(answer: float, truth: Any, whole: bool) -> float:
 def _verdict(off: Any, claimed: float, size: Any, verified: bool) -> str:
     if not verified:
         return "unverified"
+    if not mp.isfinite(off) or math.isnan(claimed):
+        return "WRONG"
     if not off <= claimed + HALF_LEAST:
         return "WRONG"
     idle = (claimed > IDLE * off and claimed > USEFUL * size) or claimed > max(size, mp.mpf(5e-324))

@@ -27,6 +27,8 @@ def one(
     if not math.isfinite(found.value):
         return {"failed": found.note, "cost": cost}
     found = estimates(asked, found)
+    if found.note.startswith("wrong"):
+        return {"failed": found.note, "cost": cost}
     answer = {
         "value": float(found.value), "truth": true.value, "truth_error": true.error, "source": true.source,
         "error": abs(float(found.value) - true.value), "bound": float(found.bound), "claimed": found.claimed,

@@ -67,7 +67,14 @@ def answer(cells: Sequence[Cell], results: Sequence[Mapping[str, Any]]) -> dict[
     best = [_best(rows, wanted) for wanted in DECADES]
     methods = [{**summary(one), "least_error": min(one.column("error"), default=None)} for one in every]
     told = [entry for entry in best if entry["cost"]["method"]]
-    return {"rows": rows, "methods": methods, "best": told, "derivations": derived, "cost": {"sentence": sentence(told)}}
+    return {
+        "rows": rows,
+        "methods": methods,
+        "best": told,
+        "derivations": derived,
+        "crashed": sum("crashed" in found for found in results),
+        "cost": {"sentence": sentence(told)},
+    }
 
 
 def _best(rows: Sequence[Mapping[str, Any]], wanted: float) -> dict[str, Any]:
@@ -97,20 +104,24 @@ def _seconds(row: Mapping[str, Any]) -> float:
 
 def sentence(best: Sequence[Mapping[str, Any]]) -> str:
     """Which method to use for which accuracy: neighbouring decades with one answer are one clause."""
-    clauses: list[list[Any]] = []
+    clauses: list[tuple[str, list[Mapping[str, Any]]]] = []
     for entry in best:
-        if clauses and clauses[-1][0] == entry["cost"]["method"]:
-            clauses[-1][2], clauses[-1][3] = entry["error"], entry["cost"]["solve"]
-        else:
-            clauses.append([entry["cost"]["method"], entry["error"], entry["error"], entry["cost"]["solve"]])
-    said = [f"{_span(a, b)} {name} ({1e3 * seconds:.2g} ms)" for name, a, b, seconds in clauses]
-    if not said:
+        if not clauses or clauses[-1][0] != entry["cost"]["method"]:
+            clauses.append((entry["cost"]["method"], []))
+        clauses[-1][1].append(entry)
+    if not clauses:
         return "No method reached an error of 1e-2."
-    return f"For an error of {'; '.join(said)}."
+    return "For an error of " + "; ".join(f"{_span(entries)} {name} ({_times(entries)})" for name, entries in clauses) + "."
 
 
-def _span(a: float, b: float) -> str:
-    return f"{a:.0e} use" if a == b else f"{a:.0e} to {b:.0e} use"
+def _span(entries: Sequence[Mapping[str, Any]]) -> str:
+    first, last = entries[0]["error"], entries[-1]["error"]
+    return f"{first:.0e} use" if first == last else f"{first:.0e} to {last:.0e} use"
+
+
+def _times(entries: Sequence[Mapping[str, Any]]) -> str:
+    first, last = (f"{1e3 * entries[i]['cost']['solve']:.2g}" for i in (0, -1))
+    return f"{first} ms" if first == last else f"{first} to {last} ms"
 
 
 def text(found: Mapping[str, Any]) -> str:
@@ -182,5 +193,5 @@ def _derivations(rows: Sequence[Mapping[str, Any]]) -> str:
 
 
 def complete(found: Mapping[str, Any]) -> bool:
-    """True when every cell was answered, or said what is missing."""
-    return all("value" in row or "left out" in row["note"] for row in found["rows"])
+    """True when every cell was answered, or says what is missing or why it is not an answer."""
+    return not found["crashed"]

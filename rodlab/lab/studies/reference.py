@@ -77,7 +77,8 @@ def _load(question: Question) -> Truth:
 def _index(question: Question) -> Truth:
     lam = load_of(question)
     if question.uniform:
-        return Truth(sum(exact_load(j, float(question.K)) < lam for j in range(1, 2 + int(lam))), 0.0, "loads below lam")
+        most = 2 + int(math.sqrt(max(lam, 0.0) / float(question.K)) / math.pi)
+        return Truth(float(sum(exact_load(j, float(question.K)) < lam for j in range(1, most + 1))), 0.0, "loads below lam")
     p = equilibrium(rod(question), lam)
     if not p.index_verified:
         raise NoConvergence(f"the index of {p.equations!r} at {lam:g} could not be verified", ())
@@ -127,9 +128,10 @@ def bent(question: Question, model: Any) -> Point:
 def turning(question: Question, model: Any) -> Any:
     """The fold of the branch that the unstressed curvature cuts off, followed down from the load lam."""
     lam = load_of(question)
-    start = equilibrium(model, lam, lambda s: -2 * np.sin(np.pi * s / 2))
-    branch = follow(start, to=0.0, events=fold)
-    found = [event for event in branch.events if event.kind == "fold"]
-    if not found:
-        raise NoConvergence(f"no fold of {model!r} was met below {lam:g}: {branch.reason}", ())
-    return found[0]
+    for side in (-1, 1):  # bent against its curvature, whichever way that goes
+        start = equilibrium(model, lam, lambda s, side=side: 2 * side * np.sin(np.pi * s / 2))
+        branch = follow(start, to=0.0, events=fold)
+        found = [event for event in branch.events if event.kind == "fold"]
+        if found:
+            return found[0]
+    raise NoConvergence(f"no fold of {model!r} was met below {lam:g}: {branch.reason}", ())

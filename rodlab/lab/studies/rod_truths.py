@@ -14,6 +14,8 @@ from typing import Any
 
 import mpmath as mp
 
+LEAST_RATE = 7.0  # of the decay of a layer: exp(-14) of it reaches the clamp and comes back
+
 
 def rod_load(K: Sequence[float], edges: Sequence[float], j: int, digits: int = 60) -> Any:
     """Load j of the straight rod with stiffness K[i] between edges[i] and edges[i+1], from 0 to 1; mpf.
@@ -49,6 +51,9 @@ def layer_tip(u_hat: float, lam: float, K: float = 1.0, digits: int = 40) -> tup
     """(tip angle, how far the clamp may move it) of the rod that a load lam < 0 holds straight but for a layer at its end."""
     with mp.workdps(digits):
         rate = mp.sqrt(-mp.mpf(lam) / mp.mpf(K))
+        if rate < LEAST_RATE:
+            most = -(LEAST_RATE**2) * K
+            raise ValueError(f"lam must be at most {most:g} for a layer that does not reach the clamp; it is {lam!r}")
         half = mp.mpf(u_hat) / (2 * rate)
         if abs(half) > 1:
             raise ValueError(

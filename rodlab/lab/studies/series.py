@@ -9,6 +9,7 @@ from typing import Any
 from rodlab.lab.studies.asked import Question
 from rodlab.lab.studies.every import method_named
 from rodlab.lab.studies.methods import powers_apart
+from rodlab.mechanics.expression import Expression
 from rodlab.numerics.arrays import EPS
 from rodlab.numerics.orders import Growth, Limit, Observed, growth, observed_order, richardson
 
@@ -65,11 +66,23 @@ class Series:
         rounding = max(r - e for r, e in zip(self.noise, self.column("truth_error"), strict=True))
         sizes, values, order = [n for n, _ in self.good], self.column("value"), self.order or 1
         stages = None if self.method in EXTRAPOLATED else 1
+        if not self.expands:
+            change = abs(values[-1] - values[-2]) * max(1.0, 1 / ((sizes[-1] / sizes[-2]) ** order - 1))
+            return Limit(values[-1], 2 * change + rounding, 0), [values]
         return richardson(sizes, values, order, powers_apart(self.method), rounding, stages)
+
+    @cached_property
+    def expands(self) -> bool:
+        """True where the error is a series of powers: a strut's K and u_hat jump at joints, if at all; a rod's at mesh points."""
+        if not self.method.startswith("strut"):
+            return True
+        given = [Expression(f) for f in (self.question.K, self.question.u_hat) if isinstance(f, str)]
+        jumps = {b for f in given for b in f.breaks} | set(self.question.breaks)
+        return all(abs(b * n - round(b * n)) < 1e-9 for b in jumps for n, _ in self.good)
 
     @property
     def limit(self) -> Limit | None:
-        """Richardson's limit with its estimate; None of what has no order."""
+        """Richardson's limit with its estimate, or the last value where errors have no expansion; None of what has no order."""
         told = self.order is not None and self.question.quantity != COUNTED and len(self.good) > 1
         return self._scheme[0] if told else None
 

@@ -56,10 +56,15 @@ class Study:
         return framed("study", self.seconds, {**about, "provenance": self.runs, **self.found})
 
     @cached_property
-    def text(self) -> str:
+    def said(self) -> str:
         """The tables that a person reads."""
+        return str(_room(self.kind).text(self.found))
+
+    @property
+    def text(self) -> str:
+        """The same with the study's title."""
         title = f"{self.scene.title} [{self.scene.source}]" if self.scene.source else self.scene.title
-        return "\n\n".join([title, *([self.scene.about] if self.scene.about else []), str(_room(self.kind).text(self.found))])
+        return "\n\n".join([title, *([self.scene.about] if self.scene.about else []), self.said])
 
     @property
     def complete(self) -> bool:
