@@ -194,11 +194,13 @@ def study(chosen: argparse.Namespace) -> int:
 
     start = time.perf_counter()
     bar = _counted("cells")
-    found = study(
-        chosen.study, quick=chosen.quick, peers=chosen.peers, jobs=jobs_of(chosen), cluster=chosen.cluster, out=chosen.out,
-        ask=question_of(chosen), watch=bar,
-    )  # fmt: skip
-    bar.close()
+    try:
+        found = study(
+            chosen.study, quick=chosen.quick, peers=chosen.peers, jobs=jobs_of(chosen), cluster=chosen.cluster, out=chosen.out,
+            ask=question_of(chosen), watch=bar,
+        )  # fmt: skip
+    finally:
+        bar.close()
     written = [str(path) for path in found.write(Path(chosen.out))] if chosen.out else []
     if chosen.json:
         print(as_json({**found.answer, "files": written}))

@@ -165,7 +165,7 @@ def test_a_dask_cluster_gives_the_same_numbers(alone, monkeypatch):
 
 def test_any_executor_will_do(alone):
     seen = []
-    with ThreadPoolExecutor(1) as pool:
+    with ThreadPoolExecutor(4) as pool:  # one cell at a time all the same: digits, threads and memory are the process's own
         found = answers(SPREAD, pool, watch=lambda done, total: seen.append((done, total)))
     assert [settled(one) for one in found] == alone
     assert seen == [(i, 6) for i in range(7)]
@@ -291,6 +291,86 @@ def test_cells_of_other_code_are_not_taken(tmp_path):
         assert journal.runs([cell]) == []
 
 
+def test_a_journal_that_breaks_is_said(tmp_path):
+    import sqlite3
+
+    with sqlite3.connect(tmp_path / "cells.sqlite") as foreign:
+        foreign.execute("CREATE TABLE cells (a, b)")
+    foreign.close()
+    with pytest.raises(ValueError, match=r"cells\.sqlite is not the journal of a study.*remove it to begin anew"):
+        study("convergence", ask=SMALL, out=tmp_path)
+
+
+def test_an_answer_that_is_none_is_asked_again(tmp_path):
+    cell = Cell("measured:one", {"question": {"quantity": "load"}, "method": "strut, end", "size": 2})
+    with Journal(tmp_path, "one", {}) as journal:
+        journal.keep(cell, {})
+        assert journal.known([cell]) == {}
+        assert answers([cell], journal=journal)[0]["value"] > 0
+
+
+def test_a_crash_is_said_and_not_kept(tmp_path, monkeypatch):
+    monkeypatch.setattr("rodlab.lab.studies.measured.truth", lambda _: 1 / 0)
+    cell = Cell("measured:one", {"question": {"quantity": "load"}, "method": "strut, end", "size": 2})
+    with Journal(tmp_path, "one", {}) as journal:
+        assert answers([cell], journal=journal) == [{"failed": "ZeroDivisionError: division by zero", "crashed": True}]
+        assert journal.known([cell]) == {}
+    assert not study("convergence", ask=SMALL).complete
+
+
+def test_what_an_earlier_run_left_is_not_taken_for_this_ones(tmp_path):
+    study("convergence", ask=SMALL, out=tmp_path).write(tmp_path)
+    assert (tmp_path / "convergence-shapes.npz").exists()
+    study("convergence", ask={**SMALL, "shapes": False}, out=tmp_path).write(tmp_path)
+    assert not (tmp_path / "convergence-shapes.npz").exists()
+    assert (tmp_path / "convergence.png").exists()
+
+
+UNGUARDED = """
+import rodlab as rl
+found = rl.study("convergence", jobs=2, ask={"ask": [{"quantity": "load"}], "methods": ["strut, end"], "joints": [8, 16, 32]})
+print(len(found.cells), "cells")
+"""
+
+
+@pytest.mark.parametrize("by", ["file", "stdin"])
+def test_a_script_without_a_guard_has_its_processes(tmp_path, by):
+    path = tmp_path / "script.py"
+    path.write_text(UNGUARDED)
+    command = [sys.executable, str(path)] if by == "file" else [sys.executable, "-"]
+    done = subprocess.run(command, input=UNGUARDED if by == "stdin" else None, capture_output=True, text=True, check=False)
+    assert done.stdout == "3 cells\n", done.stderr
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="asks /proc who is alive")
+def test_workers_leave_when_their_parent_is_killed(tmp_path):
+    command = [sys.executable, "-m", "rodlab", "study", "stability", "--jobs", "2", "--out", str(tmp_path)]
+    parent = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def children():
+        found = []
+        for path in Path("/proc").glob("[0-9]*/stat"):
+            try:
+                fields = path.read_text().rpartition(")")[2].split()
+            except OSError:
+                continue
+            if int(fields[1]) == parent.pid:
+                found.append(path.parent)
+        return found
+
+    deadline = time.monotonic() + 30
+    while len(children()) < 3 and time.monotonic() < deadline:  # two workers, and the tracker of their resources
+        time.sleep(0.1)
+    workers = children()
+    assert len(workers) >= 2
+    parent.kill()
+    parent.wait()
+    deadline = time.monotonic() + 20
+    while any(path.exists() for path in workers) and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert not [path for path in workers if path.exists()]
+
+
 def test_a_journal_that_is_none_is_refused_and_left_alone(tmp_path):
     (tmp_path / "cells.sqlite").write_bytes(b"something else, longer than a header of a database" * 100)
     with pytest.raises(ValueError, match=r"cells\.sqlite is not the journal of a study"):
@@ -329,7 +409,18 @@ def test_a_dead_worker_is_said_and_what_was_finished_is_kept(tmp_path, monkeypat
 @pytest.mark.parametrize(
     ("ask", "said"),
     [
-        ({"ask": []}, "at least one question"),
+        ({"ask": []}, "must be one table or more"),
+        ({"ask": {"quantity": "load"}}, "must be one table or more"),
+        ({"ask": [{"quantity": "load", "K": "0"}]}, "K must be"),
+        ({"ask": [{"quantity": "load", "K": "s - 0.5"}]}, "K must be"),
+        ({"ask": [{"quantity": "load", "K": "1 +"}]}, "is not an expression in s"),
+        ({"ask": [{"quantity": "load", "breaks": [2.0]}]}, "breaks must"),
+        ({"ask": [{"quantity": "load", "breaks": 0.5}]}, "breaks must be a list"),
+        ({"ask": [{"quantity": "height", "lam": 2.0}]}, "lam must be above the buckling load 2.4674 of mode 1"),
+        ({"ask": [{"quantity": "height", "lam": 20.0, "mode": 2}]}, "lam must be above the buckling load 22.2066 of mode 2"),
+        ({"ask": [{"quantity": "fold", "lam": 4.0, "u_hat": "0"}]}, "u_hat must not be 0"),
+        ({"joints": [10**9]}, "joints must be at most 100000000"),
+        ({"shapes": "no"}, "shapes must be true or false"),
         ({"ask": [{"quantity": "area"}]}, "quantity must be one of load, tip_angle.*it is 'area'"),
         ({"ask": [{"quantity": "height"}]}, "lam must be given for the quantity height"),
         ({"ask": [{"quantity": "load", "colour": 1}]}, "'colour' is none of these"),
@@ -343,25 +434,38 @@ def test_a_dead_worker_is_said_and_what_was_finished_is_kept(tmp_path, monkeypat
         ({"joints": [0]}, "joints must be a whole number"),
         ({"joints": [2.5]}, "joints must be a whole number"),
         ({"quick": {"seconds": 1}}, None),
+        ({"quick": {"asks": 0}}, None),
+        ({"quick": {"asks": 1.5}}, None),
     ],
 )
 def test_what_is_no_question_is_refused_in_a_sentence(ask, said):
     table = {**SMALL, **ask}
-    with pytest.raises(ValueError, match=said or "seconds"):
+    with pytest.raises(ValueError, match=said or "seconds|asks must be a whole number"):
         convergence.cells({}, table, quick=said is None)
 
 
 def test_what_is_no_study_is_refused(monkeypatch):
     monkeypatch.setattr(execution, "PATIENCE", "0.5s")
-    for given, said in (("strut", "a study must be one of"), ("nothing", "scene must be one of")):
-        with pytest.raises(ValueError, match=said):
+    for given in ("strut", "nothing", 3, None):
+        with pytest.raises(ValueError, match="a study must be"):
             study(given)
+    for given in ("", 3):
+        with pytest.raises(ValueError, match="out must name a folder"):
+            study("convergence", out=given)
+    with pytest.raises(ValueError, match="'foo' is none of these"):
+        study("convergence", ask={"foo": 1})
+    with pytest.raises(ValueError, match="'terms' is none of these"):
+        convergence.cells({"K": 1.0, "terms": {}}, SMALL)
     with pytest.raises(ValueError, match="peers must be asked for with work-precision"):
         study("convergence", peers=True)
     with pytest.raises(ValueError, match="jobs must be a whole number"):
         study("convergence", ask=SMALL, jobs=0)
+    with pytest.raises(ValueError, match="jobs must be at most"):
+        study("convergence", ask=SMALL, jobs=10**5)
     with pytest.raises(ValueError, match="cluster must be local or the address"):
         study("convergence", ask=SMALL, cluster="tcp://127.0.0.1:1")
+    with pytest.raises(ValueError, match="cluster must be local or the address"):
+        study("convergence", ask=SMALL, cluster="nonsense")
     for name in ("rod, degree 0", "rod, degree 33", "rod", "strut", "rod, degree x"):
         with pytest.raises(ValueError, match="a method must be one of"):
             house_method(name)
@@ -437,7 +541,8 @@ def test_the_command_line_asks_and_writes(tmp_path):
         (["convergence", "-n", "4"], "quantity must be given with joints"),
         (["stability", "--quantity", "load"], "quantity must be given with convergence or work-precision"),
         (["convergence", "--peers"], "peers must be asked for with work-precision"),
-        (["nothing"], "scene must be one of"),
+        (["nothing"], "a study must be one of"),
+        (["work-precision", "--quantity", "load", "--methods", "elliptic functions, mpmath"], "methods must be struts or rods"),
         (["convergence", "--quantity", "load", "--K", "os"], "is not an expression in s"),
     ],
 )

@@ -101,6 +101,8 @@ def _kernel(chosen: Scene) -> dict[str, Any]:
 def account(name: str, runs: int = 3) -> dict[str, Any]:
     """{"scene", "rows"}: as named first, then with each thing that the scene leaves out, with the seconds saved by that."""
     chosen = scene(name)
+    if set(chosen.asks) & {"convergence", "work-precision", "stability"}:
+        raise ValueError(f"account must be asked of a scene that is no study, which tells its own costs; it is {name!r}")
     extras = [extra for extra in EXTRAS if _spared(chosen, extra)]
     rows = [{"with": "as named", **_least(name, "nothing", runs)}]
     rows += [{"with": EXTRAS[extra], **_least(name, extra, runs)} for extra in extras]

@@ -1,6 +1,6 @@
 """What a study asks, and of which methods: plain data, so that a question can travel to another process or into a file."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -28,6 +28,11 @@ class Question:
     def uniform(self) -> bool:
         """True where closed forms know the answer."""
         return not isinstance(self.K, str) and self.u_hat == 0
+
+
+def question_from(given: Mapping[str, Any]) -> Question:
+    """The question that plain data stands for."""
+    return Question(**{**given, "breaks": tuple(given.get("breaks", ()))})
 
 
 class Found(NamedTuple):

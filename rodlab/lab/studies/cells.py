@@ -7,12 +7,14 @@ runs: libraries of linear algebra are held to one thread, and answers pass throu
 """
 
 import json
+import threading
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any, NamedTuple
 
 from rodlab.analysis.newton import NoConvergence
 
+ONE = threading.Lock()  # cell at a time in a process: digits of mpmath, threads and traced memory are the process's own
 ROOM = "rodlab.lab.studies"
 VOLATILE = "cost"
 
@@ -40,9 +42,11 @@ def answer(cell: Cell) -> dict[str, Any]:
     import scipy.linalg  # noqa: F401
     from threadpoolctl import threadpool_limits
 
-    with threadpool_limits(limits=1):
+    with ONE, threadpool_limits(limits=1):
         try:
             found = _function(cell.function)(**cell.given)
+        except MemoryError:
+            found = {"failed": "it does not fit into memory", "crashed": True}
         except Exception as error:  # noqa: BLE001  one cell must not take the others with it
             found = (
                 {"failed": str(error)} if is_sentence(error) else {"failed": f"{type(error).__name__}: {error}", "crashed": True}
@@ -53,8 +57,6 @@ def answer(cell: Cell) -> dict[str, Any]:
 
 def is_sentence(error: Exception) -> bool:
     """True for what the house raises to say why there is no answer; anything else is a crash, of numpy's kinds of these too."""
-    if isinstance(error, MemoryError):
-        return True
     return type(error) in (ValueError, ArithmeticError, NoConvergence) and "broadcast" not in str(error)
 
 

@@ -12,15 +12,13 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
-from rodlab.lab.studies.asked import QUANTITIES, Question
+from rodlab.lab.studies.asked import question_from
 from rodlab.lab.studies.cells import Cell
-from rodlab.lab.studies.every import method_named
+from rodlab.lab.studies.questions import names, only, question_of, sizes_of
 from rodlab.lab.studies.series import COUNTED, Series, exponent
 from rodlab.lab.table import known_to, small, table
-from rodlab.mechanics.expression import Expression
-from rodlab.numerics.arrays import number, whole
+from rodlab.numerics.arrays import whole
 
-JOINTS, INTERVALS = tuple(2**i for i in range(4, 15)), (6, 8, 10, 12, 16, 24, 32, 48, 64)
 METHODS = ("strut, end", "strut, trapezoid", "rod, degree 1", "rod, degree 2", "rod, degree 3", "rod, degree 4")
 ASKS = ("quantity", "mode", "lam", "K", "u_hat", "breaks", "methods", "joints", "intervals")
 OF_MODEL = ("K", "u_hat", "breaks")
@@ -31,69 +29,37 @@ def cells(model: Mapping[str, Any], given: Mapping[str, Any], *, quick: bool = F
     """Every method at every size for every question. `ValueError`, in one sentence, for what is not of the form above."""
     short = given.get("quick", {}) if quick else {}
     only("convergence.quick", short, ("asks", "methods", "joints", "intervals"))
+    only("model of a study", model, OF_MODEL)
     given_to_all, asks = {**given, **short}, given.get("ask")
     if not isinstance(asks, list) or not asks:
-        raise ValueError("convergence must ask at least one question, [[convergence.ask]]")
-    found = []
+        raise ValueError(f"[[convergence.ask]] must be one table or more, each a question; it is {asks!r:.60}")
+    if not isinstance(given.get("shapes", False), bool):
+        raise ValueError(f"shapes must be true or false; it is {given['shapes']!r:.60}")
     stored = {"shape": True} if given.get("shapes") else {}
-    for ask in asks[: short.get("asks")]:
+    found: dict[str, Cell] = {}
+    for ask in asks[: whole("asks", short.get("asks", len(asks)), least=1)]:
         only("convergence.ask", ask, ASKS)
-        own = {**{name: model[name] for name in OF_MODEL if name in model}, **ask}
+        own = {**model, **ask}
         question = question_of(own)
         for method in names(own.get("methods", given_to_all.get("methods", METHODS))):
             for size in sizes_of(method, {**given_to_all, **own}):
-                cell = {"question": question, "method": method, "size": size, "repeats": 2, "memory": True, **stored}
-                found.append(Cell("measured:one", cell))
-    return found
-
-
-def question_of(given: Mapping[str, Any]) -> dict[str, Any]:
-    """A question as plain data, checked."""
-    quantity = given.get("quantity")
-    if quantity not in QUANTITIES:
-        raise ValueError(f"quantity must be one of {', '.join(QUANTITIES)}; it is {quantity!r:.60}")
-    question: dict[str, Any] = {"quantity": quantity, "mode": whole("mode", given.get("mode", 1), least=1)}
-    if quantity != "load":
-        if "lam" not in given or given["lam"] is None:
-            raise ValueError(f"lam must be given for the quantity {quantity}; it is missing")
-        question["lam"] = number("lam", given["lam"])
-    for name in ("K", "u_hat"):
-        if name in given:
-            question[name] = Expression(given[name]).text if isinstance(given[name], str) else number(name, given[name])
-    if given.get("breaks"):
-        question["breaks"] = [number("breaks", b) for b in given["breaks"]]
-    if question["mode"] > 1 and question.get("u_hat", 0.0) != 0:
-        raise ValueError(f"mode must be 1 with an unstressed curvature, whose branch has no number; it is {question['mode']}")
-    if quantity == "fold" and question.get("u_hat", 0.0) == 0:
-        raise ValueError("u_hat must not be 0 for the quantity fold: the branch of a straight rod has none; it is 0")
-    if quantity in ("load", "index") and question.get("u_hat", 0.0) != 0:
-        raise ValueError(
-            f"u_hat must be 0 for the quantity {quantity}, that of the straight rod; it is {question['u_hat']!r:.60}"
-        )
-    return question
-
-
-def sizes_of(method: str, given: Mapping[str, Any]) -> list[float]:
-    """The sizes that are given for a method, or its own."""
-    known = method_named(method)
-    if known.order is None:
-        return list(known.sizes)
-    name, usual = ("joints", JOINTS) if method.startswith("strut") else ("intervals", INTERVALS)
-    sizes = given.get(name, usual)
-    if not isinstance(sizes, (list, tuple)) or not sizes:
-        raise ValueError(f"{name} must be a list of numbers; it is {sizes!r:.60}")
-    return sorted(whole(name, size, least=1) for size in sizes)
+                asked = {"question": question, "method": method, "size": size, "repeats": 2, "memory": True, **stored}
+                cell = Cell("measured:one", asked)
+                found.setdefault(cell.key, cell)
+    return list(found.values())
 
 
 def series(cells: Sequence[Cell], results: Sequence[Mapping[str, Any]]) -> list[Series]:
     """The answers by question and method, in the order in which they were asked; Richardson's columns after their strut's."""
+    groups: dict[str, list[tuple[Cell, Mapping[str, Any]]]] = {}
+    for cell, result in zip(cells, results, strict=True):
+        asked = Cell("", {name: cell.given[name] for name in ("question", "method")})
+        groups.setdefault(asked.key, []).append((cell, result))
     found: list[Series] = []
-    pairs = list(zip(cells, results, strict=True))
-    for _, group in groupby(pairs, key=lambda pair: Cell("", {k: pair[0].given[k] for k in ("question", "method")}).key):
-        own = list(group)
-        given = own[0][0].given
-        question = Question(**{**given["question"], "breaks": tuple(given["question"].get("breaks", ()))})
-        one = Series(question, given["method"], tuple(cell.given["size"] for cell, _ in own), tuple(result for _, result in own))
+    for group in groups.values():
+        own = sorted(group, key=lambda pair: float(pair[0].given["size"]))
+        given, sizes = own[0][0].given, tuple(cell.given["size"] for cell, _ in own)
+        one = Series(question_from(given["question"]), given["method"], sizes, tuple(result for _, result in own))
         found += [one, *one.extrapolated]
     return found
 
@@ -150,22 +116,6 @@ def summary(one: Series) -> dict[str, Any]:
         f"{name}_{what}": value for what in ("solve", "peak_bytes") for name, value in one.grows(what)._asdict().items()
     }
     return told
-
-
-def names(methods: Any) -> list[str]:
-    """Names of methods, checked."""
-    if not isinstance(methods, (list, tuple)) or not methods or not all(isinstance(name, str) for name in methods):
-        raise ValueError(f"methods must be a list of names; it is {methods!r:.60}")
-    for name in methods:
-        method_named(name)
-    return list(methods)
-
-
-def only(what: str, given: Any, known: Sequence[str]) -> None:
-    """`ValueError`, in one sentence, for a table with an entry that is not known."""
-    wrong = sorted(set(given) - set(known)) if isinstance(given, Mapping) else [given]
-    if wrong:
-        raise ValueError(f"[{what}] takes {', '.join(known)}; {str(wrong[0])[:60]!r} is none of these")
 
 
 def text(found: Mapping[str, Any]) -> str:

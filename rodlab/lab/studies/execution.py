@@ -4,7 +4,7 @@ Any `concurrent.futures.Executor` will do: a process pool for one machine, Dask'
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, Executor, as_completed
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from typing import Any
 
@@ -12,6 +12,7 @@ from rodlab.lab.studies.cells import Cell, answer
 from rodlab.lab.studies.journal import Journal
 from rodlab.numerics.arrays import whole
 
+MOST = 1000  # processes
 PATIENCE = "20s"  # with a cluster that does not answer
 Watch = Callable[[int, int], None]  # cells finished, cells in all
 
@@ -26,7 +27,7 @@ def answers(
     if watch:
         watch(len(known), len(listed))
     for done, (i, result) in enumerate(_computed(listed, open_cells, executor), start=len(known) + 1):
-        if journal:
+        if journal and "crashed" not in result:  # what depends on the state of the machine is asked again
             journal.keep(listed[i], result)
         found[i] = result
         if watch:
@@ -66,20 +67,65 @@ def workers(jobs: int = 1, cluster: str | None = None) -> Iterator[Executor | No
     cluster: "local" starts Dask's on this machine with `jobs` workers; an address is that of Dask's scheduler.
     """
     jobs = whole("jobs", jobs, least=1)
+    if jobs > MOST:
+        raise ValueError(f"jobs must be at most {MOST}; it is {jobs}")
     if cluster is not None:
         with _dask(cluster, jobs) as executor:
             yield executor
     elif jobs == 1:
         yield None
     else:
-        from concurrent.futures import ProcessPoolExecutor
         from multiprocessing import get_context
 
-        pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))
+        pool = Processes(jobs, mp_context=get_context("spawn"), initializer=_leave_with_parent)
         try:
             yield pool
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
+
+
+class Processes(ProcessPoolExecutor):
+    """A pool whose processes do not run the caller's script again: cells live here, and a script may have no guard."""
+
+    def submit(self, *args: Any, **kwargs: Any) -> Future[Any]:
+        """As its parent's; a process is started by the submission that needs it."""
+        with _without_main():
+            return super().submit(*args, **kwargs)
+
+
+def _leave_with_parent() -> None:
+    """A worker whose parent was killed would wait for ever: leave when it ends."""
+    import os
+    import threading
+    from multiprocessing import parent_process
+    from multiprocessing.connection import wait
+
+    parent = parent_process()
+    if parent is None:
+        return
+    sentinel = parent.sentinel
+
+    def watch() -> None:
+        wait([sentinel])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+@contextmanager
+def _without_main() -> Iterator[None]:
+    """Without what tells a new process to run the caller's script."""
+    import sys
+
+    main = sys.modules["__main__"]
+    kept = {name: getattr(main, name) for name in ("__file__", "__spec__") if hasattr(main, name)}
+    for name in kept:
+        setattr(main, name, None)
+    try:
+        yield
+    finally:
+        for name, value in kept.items():
+            setattr(main, name, value)
 
 
 @contextmanager
@@ -89,11 +135,14 @@ def _dask(address: str, jobs: int) -> Iterator[Executor]:
     except ImportError:
         raise ValueError(f'cluster must be left out, or pip install "rodlab[cluster]" for Dask; it is {address!r}') from None
     dask: Any = distributed
-    local = dask.LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address=None) if address == "local" else None
+    local = None
+    if address == "local":
+        with _without_main():
+            local = dask.LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address=None)
     try:
         with dask.Client(local or address, timeout=PATIENCE) as client:
             yield client.get_executor(pure=False)
-    except OSError as error:
+    except (OSError, ValueError) as error:
         raise ValueError(
             f"cluster must be local or the address of a Dask scheduler; {address!r} does not answer: {error}"
         ) from None

@@ -13,6 +13,7 @@ from itertools import product
 from typing import Any
 
 from rodlab.lab.studies import cases, contrasts, stiffness
+from rodlab.mechanics.expression import Expression
 from rodlab.mechanics.joints import RULES
 from rodlab.numerics.arrays import number, whole
 
@@ -48,13 +49,17 @@ def cells(table: Mapping[str, Any], *, quick: bool = False) -> list[tuple[str, d
         for kind, given in _multiplied(group):
             if not (quick and group.get("slow", False)):
                 found.setdefault(json.dumps([kind, given], sort_keys=True), (kind, given))
+    if not found:
+        raise ValueError(
+            "[stability] must leave at least one cell: every mode is above its n, or every group is slow and quick asked for"
+        )
     return list(found.values())
 
 
 def _multiplied(group: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]:
     given = {name: value for name, value in group.items() if name not in ("case", "slow")}
     kind = group.get("case")
-    if kind not in KINDS:
+    if not isinstance(kind, str) or kind not in KINDS:
         raise ValueError(f"case must be one of {', '.join(KINDS)}; it is {kind!r:.60}")
     if not isinstance(group.get("slow", False), bool):
         raise ValueError(f"slow must be true or false; it is {group['slow']!r:.60}")
@@ -95,5 +100,5 @@ def _value(name: str, value: Any, given: Mapping[str, Any]) -> Any:
     if name == "guess":
         if not isinstance(value, str):
             raise ValueError(f"guess must be an expression in s; it is {value!r}")
-        return value
+        return Expression(value).text
     return number(name, value, above={"ratio": 1.0, "tolerance": 0.0, "jump": 0.0}.get(name))

@@ -7,7 +7,8 @@ libraries (`fingerprint`): numbers of two versions are never mixed.
 import json
 import sqlite3
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -26,15 +27,23 @@ class Journal:
         self.path, self.fingerprint = folder / "cells.sqlite", fingerprint
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            self.file = sqlite3.connect(self.path, timeout=60.0)
+        except OSError as error:
+            raise ValueError(f"{folder} cannot be written: {error.strerror or error}") from None
+        with self._said():
+            self.file = sqlite3.connect(self.path, timeout=60.0, check_same_thread=False)
             self.file.execute("PRAGMA synchronous = NORMAL")
             self.file.executescript(TABLES)
             with self.file:
                 self.run = self.file.execute("INSERT INTO runs (provenance) VALUES (?)", (json.dumps(provenance),)).lastrowid
-        except OSError as error:
-            raise ValueError(f"{folder} cannot be written: {error.strerror or error}") from None
+
+    @contextmanager
+    def _said(self) -> Iterator[None]:
+        """What SQLite cannot do, in one sentence with the remedy."""
+        try:
+            yield
         except sqlite3.Error as error:
-            raise ValueError(f"{self.path} is not the journal of a study, or cannot be written: {error}") from None
+            said = f"{self.path} is not the journal of a study, or cannot be written: {error}"
+            raise ValueError(f"{said}; remove it to begin anew, or name another folder") from None
 
     def __enter__(self) -> "Journal":
         return self
@@ -44,20 +53,32 @@ class Journal:
 
     def known(self, cells: Sequence[Cell]) -> dict[int, dict[str, Any]]:
         """The answers that are there already, by their place in the list."""
-        own = self.file.execute("SELECT key, answer FROM cells WHERE fingerprint = ?", (self.fingerprint,))
-        there = dict(own.fetchall())
-        return {i: json.loads(there[cell.key]) for i, cell in enumerate(cells) if cell.key in there}
+        with self._said():
+            own = self.file.execute("SELECT key, answer FROM cells WHERE fingerprint = ?", (self.fingerprint,))
+            there = dict(own.fetchall())
+        found = {i: _read(there[cell.key]) for i, cell in enumerate(cells) if cell.key in there}
+        return {i: answer for i, answer in found.items() if answer is not None}
 
     def keep(self, cell: Cell, answer: Mapping[str, Any]) -> None:
         """Write one answer, whole."""
         row = (self.fingerprint, cell.key, self.run, json.dumps(answer))
-        with self.file:
+        with self._said(), self.file:
             self.file.execute("INSERT OR REPLACE INTO cells VALUES (?, ?, ?, ?)", row)
 
     def runs(self, cells: Sequence[Cell]) -> list[dict[str, Any]]:
         """Where and when these cells were computed, each run with their number."""
-        rows = self.file.execute("SELECT key, run FROM cells WHERE fingerprint = ?", (self.fingerprint,)).fetchall()
+        with self._said():
+            rows = self.file.execute("SELECT key, run FROM cells WHERE fingerprint = ?", (self.fingerprint,)).fetchall()
+            said = dict(self.file.execute("SELECT id, provenance FROM runs").fetchall())
         wanted = {cell.key for cell in cells}
         counts = Counter(run for key, run in rows if key in wanted)
-        said = dict(self.file.execute("SELECT id, provenance FROM runs").fetchall())
         return [{**json.loads(said[run]), "cells": counts[run]} for run in sorted(counts)]
+
+
+def _read(text: str) -> dict[str, Any] | None:
+    """An answer; None for what is none, which is as if it had not been finished."""
+    try:
+        found = json.loads(text)
+    except ValueError:
+        return None
+    return found if isinstance(found, dict) and found else None

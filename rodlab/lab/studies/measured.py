@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from rodlab.lab.studies.asked import Found, Question
+from rodlab.lab.studies.asked import Found, question_from
 from rodlab.lab.studies.costs import spent
 from rodlab.lab.studies.every import method_named
 from rodlab.lab.studies.methods import estimates
@@ -19,7 +19,7 @@ def one(
     question: Mapping[str, Any], method: str, size: float, repeats: int = 1, memory: bool = False, shape: bool = False
 ) -> dict[str, Any]:
     """Value, truth, error, the method's bound and claim, unknowns, and what it cost."""
-    asked, known = Question(**{**question, "breaks": tuple(question.get("breaks", ()))}), method_named(method)
+    asked, known = question_from(question), method_named(method)
     if known.missing:
         raise ValueError(known.missing)
     true = truth(asked)

@@ -14,7 +14,7 @@ import numpy as np
 from rodlab.analysis.equilibrium import equilibrium
 from rodlab.lab.studies.asked import Found, Method, Question
 from rodlab.lab.studies.reference import load_of, truth, turning
-from rodlab.mechanics.buckling import buckling_each
+from rodlab.mechanics.buckling import buckling_each, mode_numbers
 from rodlab.mechanics.joints import RULES
 from rodlab.mechanics.loads import mesh_load
 from rodlab.mechanics.rod import HIGHEST, Rod
@@ -95,7 +95,7 @@ def _solved(question: Question, ready: Any) -> Found:
 def _load(model: Strut | Rod, mode: int) -> tuple[float, float]:
     if isinstance(model, Rod) and not model.adapts:
         return mesh_load(model, mode)
-    return next(buckling_each(model, (mode,)))
+    return next(buckling_each(model, mode_numbers(model, [mode])))
 
 
 def unknowns(model: Strut | Rod) -> int:

@@ -10,13 +10,16 @@ set-up, once a model; the solve, the least and the median of repeats. Every meth
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from rodlab.lab.studies.asked import question_from
 from rodlab.lab.studies.cells import Cell
-from rodlab.lab.studies.convergence import names, only, question_of, rows_of, series, summary
+from rodlab.lab.studies.convergence import OF_MODEL, rows_of, series, summary
 from rodlab.lab.studies.every import method_named, others, rivals
+from rodlab.lab.studies.questions import names, only, question_of, sizes_of
 from rodlab.lab.studies.series import exponent
 from rodlab.lab.table import small, table
 from rodlab.numerics.arrays import whole
 
+HOUSE = ("strut, end", "strut, trapezoid", "rod, degree 2", "rod, degree 4", "rod, degree 8", "rod, adapted")
 DECADES = tuple(10.0**-i for i in range(2, 14))
 NEARLY = 1.25  # ratio of times that is not told apart
 DERIVED = {"strut, end": ("strut", "end"), "strut, trapezoid": ("strut", "trapezoid"), "rod": ("rod", "")}
@@ -26,14 +29,14 @@ def cells(model: Mapping[str, Any], given: Mapping[str, Any], *, quick: bool = F
     """Every method at every size, the house's derivations, and, where asked for, the peers that are there."""
     short = given.get("quick", {}) if quick else {}
     only("work-precision.quick", short, ("methods", "repeats"))
-    own = {name: value for name, value in given.items() if name not in ("quick", "peers")} | short
-    ask = own.get("ask", {})
-    only("work-precision.ask", ask, ("quantity", "mode", "lam"))
-    question = {**question_of({**model, **ask}), "guess": "modest"}
+    only("model of a study", model, OF_MODEL)
+    own = {**given, **short}
+    only("work-precision.ask", own.get("ask", {}), ("quantity", "mode", "lam", *OF_MODEL))
+    question = {**question_of({**model, **own.get("ask", {})}), "guess": "modest"}
     repeats = whole("repeats", own.get("repeats", 5), least=1)
     found = [Cell("derivations:derived", {"model": kind, "rule": rule}) for kind, rule in DERIVED.values()]
     for name in _asked(own.get("methods"), question, peers=bool(given.get("peers"))):
-        for size in _sizes(name, quick=quick):
+        for size in _sizes(name, own, quick=quick):
             cell = {"question": question, "method": name, "size": size, "repeats": repeats, "memory": not name.startswith("AUTO")}
             found.append(Cell("measured:one", cell))
     return found
@@ -41,19 +44,21 @@ def cells(model: Mapping[str, Any], given: Mapping[str, Any], *, quick: bool = F
 
 def _asked(given: Any, question: Mapping[str, Any], *, peers: bool) -> list[str]:
     """The methods named, or all; the others and the peers know only the tip angle of the uniform rod."""
-    uniform = (
-        question["quantity"] == "tip_angle" and question.get("u_hat", 0.0) == 0 and not isinstance(question.get("K", 1.0), str)
-    )
-    listed = names(given) if given else [method.name for method in others()]
+    uniform = question["quantity"] == "tip_angle" and question_from(question).uniform
+    listed = names(given) if given else [*HOUSE, *(method.name for method in others())]
     every = [*listed, *(method.name for method in rivals() if peers)]
-    house = ("strut, end", "strut, trapezoid", "rod, ")
-    return [name for name in every if name.startswith(house) or uniform]
+    able = [name for name in every if name.startswith(("strut, end", "strut, trapezoid", "rod, ")) or uniform]
+    if not able:
+        raise ValueError(f"methods must be struts or rods but for the tip angle of a uniform rod; they are {', '.join(every)}")
+    return able
 
 
-def _sizes(name: str, *, quick: bool) -> Sequence[float]:
+def _sizes(name: str, given: Mapping[str, Any], *, quick: bool) -> Sequence[float]:
     method = method_named(name)
     if method.missing:
         return method.sizes[:1]  # one row that says what is missing
+    if method.order is not None and ("joints" if name.startswith("strut") else "intervals") in given:
+        return sizes_of(name, given)
     return method.quick if quick else method.sizes
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from rodlab.mechanics.expression import Expression
 from rodlab.mechanics.rod import Rod
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import number, whole
@@ -30,9 +31,12 @@ def checked(K: Any) -> Given:
             if not 0 < number("at of K", K["at"]) < 1:
                 raise ValueError(f"at of K must lie between 0 and 1; it is {K['at']!r}")
         else:
-            number("decades of K", K["decades"], above=0.0)
+            if number("decades of K", K["decades"], above=0.0) > 600:
+                raise ValueError(f"decades of K must be at most 600, what floats span; it is {K['decades']!r}")
             whole("seed of K", K["seed"], least=0)
-    elif not isinstance(K, str):
+    elif isinstance(K, str):
+        Expression(K)
+    else:
         number("K", K, above=0.0)
     return known
 

@@ -17,13 +17,14 @@ from typing import Any
 import numpy as np
 
 from rodlab.files import swept, write_whole
-from rodlab.lab.scene import Scene, scene
+from rodlab.lab.scene import ASKS, FORMATS, Scene, scene, scenes
 from rodlab.lab.store import as_csv, as_json, framed
 from rodlab.lab.studies.asked import QUANTITIES
 from rodlab.lab.studies.cells import VOLATILE, Cell
 from rodlab.lab.studies.execution import Watch, answers, workers
 from rodlab.lab.studies.journal import Journal
 from rodlab.lab.studies.provenance import fingerprint, provenance
+from rodlab.lab.studies.questions import only
 
 KINDS = {"convergence": "convergence", "work-precision": "precision", "stability": "stability"}
 
@@ -96,7 +97,11 @@ class Study:
             files |= {
                 f"{self.kind}.{suffix}": drawn(figure, f"{self.kind}.{suffix}") for suffix in formats[: 1 if self.quick else None]
             }
-        return [write_whole(folder / name, content) for name, content in files.items()]
+        written = [write_whole(folder / name, content) for name, content in files.items()]
+        own = {f"{self.kind}.{suffix}" for suffix in FORMATS} | {path.name for path in folder.glob(f"{self.kind}-*.*")}
+        for name in own - set(files):  # of an earlier run: not of this answer
+            (folder / name).unlink(missing_ok=True)
+        return written
 
     def _shapes(self) -> bytes | None:
         """Arrays s, phi, x, z of every stored shape, named by its cell's place; `cells` are the questions as JSON text."""
@@ -128,10 +133,12 @@ def study(
     ('strut, end', 1, 1.0, True)
     """
     start = time.perf_counter()
-    chosen = kind if isinstance(kind, Scene) else scene(kind)
+    chosen = _chosen(kind)
     kinds = [name for name in KINDS if name in chosen.asks]
-    if len(kinds) != 1:
-        raise ValueError(f"a study must be one of {', '.join(KINDS)}, or a scene that asks for one of them; {kind!r:.80} is not")
+    if ask is not None:
+        only(kinds[0], ask, (*ASKS[kinds[0]], "joints", "intervals"))
+    if out is not None and not (isinstance(out, (str, Path)) and str(out)):
+        raise ValueError(f"out must name a folder; it is {out!r:.60}")
     if peers and kinds[0] != "work-precision":
         raise ValueError(f"peers must be asked for with work-precision only; the study is {kinds[0]}")
     table = {**chosen.asks[kinds[0]], **(ask or {}), **({"peers": True} if peers else {})}
@@ -146,6 +153,18 @@ def study(
     return Study(kinds[0], chosen, tuple(cells), tuple(results), time.perf_counter() - start, tuple(runs), quick)
 
 
+def _chosen(kind: Any) -> Scene:
+    """The scene of a study, which asks for one of them."""
+    if isinstance(kind, str) and not kind.endswith(".toml") and kind not in {known.name for known in scenes()}:
+        raise ValueError(f"a study must be one of {', '.join(KINDS)}, or the path of a scene's .toml; it is {kind!r:.80}")
+    if not isinstance(kind, (str, Path, Scene)):
+        raise ValueError(f"a study must be given by its name or its file; it is {kind!r:.80}")
+    chosen = kind if isinstance(kind, Scene) else scene(str(kind))
+    if sum(name in chosen.asks for name in KINDS) != 1:
+        raise ValueError(f"a study must be one of {', '.join(KINDS)}, or a scene that asks for one of them; {kind!r:.80} is not")
+    return chosen
+
+
 def question_instead(kind: str, asked: Mapping[str, Any], sizes: Mapping[str, Any]) -> dict[str, Any] | None:
     """`ask` of `study` for one question in the place of a scene's; None where nothing is asked. None stands for not given."""
     own, given = ({k: v for k, v in table.items() if v is not None} for table in (asked, sizes))
@@ -155,7 +174,7 @@ def question_instead(kind: str, asked: Mapping[str, Any], sizes: Mapping[str, An
         named = ", ".join([*own, *given])
         raise ValueError(f"quantity must be given with {named}: one of {', '.join(QUANTITIES)}; it is missing")
     if kind == "work-precision":
-        return {"ask": own, **{name: value for name, value in given.items() if name == "methods"}}
+        return {"ask": own, **given}
     if kind == "convergence":
         return {"ask": [{**own, **given}], "quick": {}}
     raise ValueError(f"quantity must be given with convergence or work-precision; the study is {kind!r:.80}")
