@@ -241,7 +241,13 @@ def run(chosen: argparse.Namespace) -> int:
         return 0
     answer, text, completed = run_scene(chosen.scene, Path(chosen.out) if chosen.out else None, watch=_watched("points", 10**6))
     print(as_json(answer) if chosen.json else text)
-    return 0 if completed else _complain("run", "a branch of the scene could not be followed to its end", 3)
+    return (
+        0
+        if completed
+        else _complain(
+            "run", "a branch could not be followed to its end, or an answer is wrong or missing: the tables say which", 3
+        )
+    )
 
 
 def _watched(what: str, work: int) -> Any:

@@ -110,6 +110,19 @@ def test_the_errors_of_a_rods_branch_points_hold(degree, intervals):
         assert abs(e.lam - ((2 * j + 1) * math.pi / 2) ** 2) <= e.error
 
 
+@pytest.mark.parametrize(
+    ("K", "u_hat"), [("exp(-3*s)", 0.01), ("exp(3*s)", 0.01), ("Piecewise((1, s < 0.5), (1000, True))", 0.01), ("1 + s", -0.05)]
+)
+def test_the_errors_of_a_rods_folds_hold_and_are_not_idle(K, u_hat):
+    """An adversary found a seventh of them too small where K varies: now the fold is corrected on the companion."""
+    lam = 2.5 * truth(Question("load", K=K)).value
+    question = {"quantity": "fold", "K": K, "u_hat": u_hat, "lam": lam}
+    for degree, intervals in ((1, 2), (1, 8), (2, 2), (3, 8), (6, 2)):
+        found = answer(Cell("measured:one", {"question": question, "method": f"rod, degree {degree}", "size": intervals}))
+        assert found["error"] <= found["claimed"] + found["truth_error"], (degree, intervals, found)
+        assert found["claimed"] <= 4 * found["error"] + 1e-11 * lam
+
+
 def test_the_index_settles(converged):
     rows = [row for row in converged.answer["orders"] if row["quantity"] == "index"]
     assert {row["method"]: row["settled_from"] for row in rows if "strut" in row["method"]} == {
@@ -486,6 +499,9 @@ def test_a_scene_of_ones_own_is_a_study(tmp_path):
         "convergence-orders.csv",
         "convergence.svg",
     }  # no shapes: not named
+    ran = json.loads(run("run", str(path), "--out", str(tmp_path / "ran"), "--json").stdout)
+    assert ran["convergence"]["orders"][0]["order"] == found.answer["orders"][0]["order"]
+    assert {path.name for path in (tmp_path / "ran").iterdir()} == {"scene.json", "convergence.png"}
     path.write_text(path.read_text().replace('"svg"', '"gif"'))
     with pytest.raises(ValueError, match="formats must be a list of png, pdf, svg"):
         study(str(path))

@@ -118,17 +118,14 @@ def missed(rod: "Rod", u: Array, lam: float, v: Array) -> tuple[float, float]:
     """
     own = np.array([float(v @ rod.residual_wide(u, lam)), quadratic(rod.jacobian(u, lam), v)[0]])
     found, change = np.zeros(2), np.full(2, np.inf)
-    for level in range(LEVELS):
+    for _ in range(LEVELS):
         fine = rod.companion
-        try:
-            u, v, reduced = _reduced(fine, fine.moved(rod, u), fine.moved(rod, v, direction=True), lam)
-        except (ArithmeticError, ValueError):
-            return (np.inf, np.inf) if not level else tuple(SAFE * (np.abs(found) + change))
+        u, v, reduced = _reduced(fine, fine.moved(rod, u), fine.moved(rod, v, direction=True), lam)
         change, found, rod = np.abs(reduced - own - found), reduced - own, fine
-        if (change <= 0.05 * np.abs(found)).all() or fine.degree >= HIGH:
+        if not (change > 0.05 * np.abs(found)).any() or fine.degree >= HIGH:
             break
     force, stiffness = SAFE * np.abs(found)
-    return float(force), float(stiffness)
+    return (float(force), float(stiffness)) if np.isfinite(found).all() else (np.inf, np.inf)
 
 
 def _reduced(fine: "Rod", u: Array, v: Array, lam: float) -> tuple[Array, Array, Array]:
@@ -137,8 +134,8 @@ def _reduced(fine: "Rod", u: Array, v: Array, lam: float) -> tuple[Array, Array,
     for _ in range(2):
         J = fine.jacobian(u, lam)
         bordered = Bordered(J, J.factor(), B=v[:, None], C=v[:, None], D=np.zeros((1, 1)))
-        step, _ = bordered.solve(-fine.residual_wide(u, lam), np.zeros(1))
-        turned, _ = bordered.solve(np.zeros(u.size), np.array([size]))
+        step, _ = bordered.solve_once(-fine.residual_wide(u, lam), np.zeros(1))
+        turned, _ = bordered.solve_once(np.zeros(u.size), np.array([size]))
         u, v = u + step, turned
     return u, v, np.array([float(v @ fine.residual_wide(u, lam)), quadratic(fine.jacobian(u, lam), v)[0]])
 

@@ -121,11 +121,12 @@ def elastica(ratio: float, mode: int = 1) -> dict[str, Any]:
     known = exact_elastica(lam, mode)
     said = _head("elastica", f"mode {mode}", f"mode {mode}, lam = {ratio:g} lam_{mode}", "tip angle", None)
     rod = rod_with(1.0, 0.0)
-    size, places = abs(known.tip_angle), known.shape.s
+    size, places = min(1.0, abs(known.tip_angle)), known.shape.s
     guess = size * (known.shape.phi / size).round(2)  # to a hundredth: near the branch, no nearer
+    others = [exact_elastica(lam, j) for j in range(1, 1 + int(math.sqrt(lam) / math.pi + 0.5))]
     return _of_rod(
         said, lambda: _with_answers(solved(rod, lam, lambda s: np.interp(s, places, guess))),
-        ((known.tip_angle, mode - 1),), known.error, known.condition,
+        [(side * one.tip_angle, one.index) for one in others for side in (1, -1)], known.error, known.condition,
     )  # fmt: skip
 
 
