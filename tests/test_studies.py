@@ -619,6 +619,14 @@ def test_derivations_are_timed_apart(timed):
     assert all(row["cost"]["import"] > 0 and row["cost"]["derive"] > 0 for row in derivations)
 
 
+def test_tolerances_are_listed_from_coarse_to_fine():
+    found = study("work-precision", quick=True, ask={"methods": ["rod, adapted"], "quick": {"repeats": 1}})
+    sizes = [row["size"] for row in found.answer["rows"]]
+    assert sizes == sorted(sizes, reverse=True)
+    (line,) = found.figure().axes[0].lines
+    assert line.get_xdata().size >= 2
+
+
 def test_pictures_are_drawn(timed, converged):
     assert timed.figure().axes[0].get_xscale() == "log"
     assert len(converged.figure().axes) == 9

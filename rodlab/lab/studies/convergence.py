@@ -57,9 +57,8 @@ def series(cells: Sequence[Cell], results: Sequence[Mapping[str, Any]]) -> list[
         groups.setdefault(asked.key, []).append((cell, result))
     found: list[Series] = []
     for group in groups.values():
-        own = sorted(group, key=lambda pair: float(pair[0].given["size"]))
-        given, sizes = own[0][0].given, tuple(cell.given["size"] for cell, _ in own)
-        one = Series(question_from(given["question"]), given["method"], sizes, tuple(result for _, result in own))
+        given, sizes = group[0][0].given, tuple(cell.given["size"] for cell, _ in group)
+        one = Series(question_from(given["question"]), given["method"], sizes, tuple(result for _, result in group))
         found += [one, *one.extrapolated]
     return found
 
