@@ -92,9 +92,8 @@ def contrast_residual_test(n: int, lam: float, u_hat: float, tolerance: float, K
     p = equilibrium(strut, lam)
     known = truths.refined(strut, p.u, lam, 1e-4 * p.error)
     tip = truths.many(known.angles.high[-1], known.angles.low[-1])
-    said = _head(
-        "residual test", f"{in_words(K)}, lam = {lam:g}, u_hat = {u_hat:g}, n = {n}, |F| <= {tolerance:g}", "tip angle", n
-    )
+    case = f"{in_words(K)}, lam = {lam:g}, u_hat = {u_hat:g}, n = {n}, |F| <= {tolerance:g}"
+    said = _head("residual test", case, "tip angle", n)
     return {
         **said, "condition": condition(strut, p.u, lam), "backward": EPS, "index": p.index,
         **judged(p.tip_angle, tip, p.error, verified=p.index_verified, unsure=known.step),
@@ -149,11 +148,8 @@ def _head(group: str, case: str, asks: str, n: int) -> dict[str, Any]:
 
 
 def _near(lam: float) -> str:
-    return (
-        f"{lam:g}"
-        if float(f"{lam:g}") == lam
-        else f"{round(lam):g} {'-' if lam < round(lam) else '+'} {abs(lam - round(lam)):.2g}"
-    )
+    short, whole = f"{lam:g}", round(lam)
+    return short if float(short) == lam else f"{whole:g} {'-' if lam < whole else '+'} {abs(lam - whole):.2g}"
 
 
 def _to_three_digits(beside: dict[str, Any]) -> dict[str, Any]:

@@ -3,10 +3,12 @@
 from rodlab.lab.studies.asked import Method
 from rodlab.lab.studies.methods import house_method
 
+HOUSE = ("strut, end", "strut, trapezoid", "rod, ")  # how the names of those begin that answer any question
+
 
 def method_named(name: str) -> Method:
     """A method by its name. `ValueError` for one that nobody has."""
-    if name.startswith(("strut, end", "strut, trapezoid", "rod, ")):
+    if name.startswith(HOUSE):
         return house_method(name)
     known = {method.name: method for method in (*others(), *rivals())}
     if name not in known:

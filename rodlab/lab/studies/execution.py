@@ -5,7 +5,7 @@ Any `concurrent.futures.Executor` will do: a process pool for one machine, Dask'
 
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 from rodlab.lab.studies.cells import Cell, answer
@@ -134,18 +134,13 @@ def _dask(address: str, jobs: int) -> Iterator[Executor]:
         import distributed
     except ImportError:
         raise ValueError(f'cluster must be left out, or pip install "rodlab[cluster]" for Dask; it is {address!r}') from None
-    dask: Any = distributed
-    local = None
-    if address == "local":
-        with _without_main():
-            local = dask.LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address=None)
-    try:
-        with dask.Client(local or address, timeout=PATIENCE) as client:
-            yield client.get_executor(pure=False)
-    except (OSError, ValueError) as error:
-        raise ValueError(
-            f"cluster must be local or the address of a Dask scheduler; {address!r} does not answer: {error}"
-        ) from None
-    finally:
-        if local:
-            local.close()
+    with _without_main(), ExitStack() as opened:
+        dask: Any = distributed
+        try:
+            if address == "local":
+                address = opened.enter_context(dask.LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address=None))
+            client = opened.enter_context(dask.Client(address, timeout=PATIENCE))
+        except (OSError, ValueError) as error:
+            said = f"cluster must be local or the address of a Dask scheduler; {address!r} does not answer: {error}"
+            raise ValueError(said) from None
+        yield client.get_executor(pure=False)

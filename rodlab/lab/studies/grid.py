@@ -35,17 +35,12 @@ def cells(table: Mapping[str, Any], *, quick: bool = False) -> list[tuple[str, d
     ('cases:loads', {'n': 5, 'mode': 5})
     """
     groups = table.get("grid")
-    if (
-        set(table) != {"grid"}
-        or not isinstance(groups, list)
-        or not groups
-        or not all(isinstance(one, Mapping) for one in groups)
-    ):
-        raise ValueError(
-            f"[stability] must hold [[stability.grid]] tables and nothing else; it holds {', '.join(table) or 'nothing'}"
-        )
+    tables = isinstance(groups, list) and groups and all(isinstance(one, Mapping) for one in groups)
+    if set(table) != {"grid"} or not tables:
+        held = ", ".join(table) or "nothing"
+        raise ValueError(f"[stability] must hold [[stability.grid]] tables and nothing else; it holds {held}")
     found: dict[str, tuple[str, dict[str, Any]]] = {}
-    for group in groups:
+    for group in groups or ():
         for kind, given in _multiplied(group):
             if not (quick and group.get("slow", False)):
                 found.setdefault(json.dumps([kind, given], sort_keys=True), (kind, given))

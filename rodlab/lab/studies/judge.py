@@ -68,15 +68,8 @@ def unjudged(answer: float, error: Exception) -> dict[str, Any]:
 def refused(error: Exception, truth: Any = None) -> dict[str, Any]:
     """The same of an answer that was refused, with the sentence."""
     known = {} if truth is None else {"truth": float(truth), "truth_digits": mp.nstr(truth, 20)}
-    return {
-        "answer": None,
-        "forward": math.nan,
-        "claimed": math.nan,
-        "digits": 0.0,
-        "verdict": "refused",
-        "why": str(error),
-        **known,
-    }
+    told = {"answer": None, "forward": math.nan, "claimed": math.nan, "digits": 0.0, "verdict": "refused", "why": str(error)}
+    return {**told, **known}
 
 
 def judged_naively(formula: Callable[[], float], truth: Any, *, whole: bool = False) -> dict[str, Any]:
@@ -88,12 +81,8 @@ def judged_naively(formula: Callable[[], float], truth: Any, *, whole: bool = Fa
     try:
         answer = float(formula())
     except NeverEndsError as error:
-        return {
-            "naive": error.last,
-            "naive_forward": _off(error.last, truth, whole),
-            "naive_verdict": "never ends",
-            "naive_why": str(error),
-        }
+        off = _off(error.last, truth, whole)
+        return {"naive": error.last, "naive_forward": off, "naive_verdict": "never ends", "naive_why": str(error)}
     except (ArithmeticError, ValueError) as error:
         return {"naive": None, "naive_forward": math.inf, "naive_verdict": "fails", "naive_why": str(error)}
     if not math.isfinite(answer):

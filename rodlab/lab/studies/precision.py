@@ -13,13 +13,16 @@ from typing import Any
 from rodlab.lab.studies.asked import question_from
 from rodlab.lab.studies.cells import Cell
 from rodlab.lab.studies.convergence import OF_MODEL, rows_of, series, summary
-from rodlab.lab.studies.every import method_named, others, rivals
+from rodlab.lab.studies.every import HOUSE, method_named, others, rivals
 from rodlab.lab.studies.questions import names, only, question_of, sizes_of
 from rodlab.lab.studies.series import exponent
 from rodlab.lab.table import small, table
 from rodlab.numerics.arrays import whole
 
-HOUSE = ("strut, end", "strut, trapezoid", "rod, degree 2", "rod, degree 4", "rod, degree 8", "rod, adapted")
+USUAL = ("strut, end", "strut, trapezoid", "rod, degree 2", "rod, degree 4", "rod, degree 8", "rod, adapted")
+COLUMNS = (
+    "method", "order", "least error", "at size", "unknowns", "set-up ms", "solve ms", "median", "peak MB", "time", "memory",
+)  # fmt: skip
 DECADES = tuple(10.0**-i for i in range(2, 14))
 NEARLY = 1.25  # ratio of times that is not told apart
 DERIVED = {"strut, end": ("strut", "end"), "strut, trapezoid": ("strut", "trapezoid"), "rod": ("rod", "")}
@@ -45,9 +48,9 @@ def cells(model: Mapping[str, Any], given: Mapping[str, Any], *, quick: bool = F
 def _asked(given: Any, question: Mapping[str, Any], *, peers: bool) -> list[str]:
     """The methods named, or all; the others and the peers know only the tip angle of the uniform rod."""
     uniform = question["quantity"] == "tip_angle" and question_from(question).uniform
-    listed = names(given) if given else [*HOUSE, *(method.name for method in others())]
+    listed = names(given) if given else [*USUAL, *(method.name for method in others())]
     every = [*listed, *(method.name for method in rivals() if peers)]
-    able = [name for name in every if name.startswith(("strut, end", "strut, trapezoid", "rod, ")) or uniform]
+    able = [name for name in every if name.startswith(HOUSE) or uniform]
     if not able:
         raise ValueError(f"methods must be struts or rods but for the tip angle of a uniform rod; they are {', '.join(every)}")
     return able
@@ -72,14 +75,9 @@ def answer(cells: Sequence[Cell], results: Sequence[Mapping[str, Any]]) -> dict[
     best = [_best(rows, wanted) for wanted in DECADES]
     methods = [{**summary(one), "least_error": min(one.column("error"), default=None)} for one in every]
     told = [entry for entry in best if entry["cost"]["method"]]
-    return {
-        "rows": rows,
-        "methods": methods,
-        "best": told,
-        "derivations": derived,
-        "crashed": sum("crashed" in found for found in results),
-        "cost": {"sentence": sentence(told)},
-    }
+    crashed = sum("crashed" in found for found in results)
+    tables = {"rows": rows, "methods": methods, "best": told, "derivations": derived}
+    return {**tables, "crashed": crashed, "cost": {"sentence": sentence(told)}}
 
 
 def _best(rows: Sequence[Mapping[str, Any]], wanted: float) -> dict[str, Any]:
@@ -87,16 +85,14 @@ def _best(rows: Sequence[Mapping[str, Any]], wanted: float) -> dict[str, Any]:
 
     A closed form, which knows one rod only, is not among them.
     """
-    good = [row for row in rows if "value" in row and row["error"] <= wanted and not row["note"].startswith("wrong")]
+    good = [row for row in rows if "value" in row and row["error"] <= wanted]
     peers, closed = {method.name for method in rivals()}, {method.name for method in others() if len(method.sizes) == 1}
     ours = sorted((row for row in good if row["method"] not in peers | closed), key=_seconds)
     theirs = sorted((row for row in good if row["method"] in peers), key=_seconds)
     first = ours[0] if ours else None
-    told: dict[str, Any] = {
-        "method": first and first["method"],
-        "size": first and first["size"],
-        "solve": first and _seconds(first),
-    }
+    told: dict[str, Any] = {"method": None, "size": None, "solve": None}
+    if first is not None:
+        told = {"method": first["method"], "size": first["size"], "solve": _seconds(first)}
     near = [row["method"] for row in ours if first and _seconds(row) <= NEARLY * _seconds(first)]
     told["nearly"] = [name for name in dict.fromkeys(near) if name != told["method"]]
     told |= {"peer": theirs[0]["method"] if theirs else None, "peer_solve": _seconds(theirs[0]) if theirs else None}
@@ -142,28 +138,11 @@ def text(found: Mapping[str, Any]) -> str:
         order = "" if not row["clear"] else f"{row['order']:.2f}"
         times = [f"{1e3 * cost[name]:.2f}" for name in ("setup", "solve", "median")]
         growths = [exponent(row["cost"], what) for what in ("solve", "peak_bytes")]
-        lines.append(
-            [row["method"], order, small(row["least_error"]), f"{finest['size']:g}", finest["unknowns"], *times, peak, *growths]
-        )
-    columns = [
-        "method",
-        "order",
-        "least error",
-        "at size",
-        "unknowns",
-        "set-up ms",
-        "solve ms",
-        "median",
-        "peak MB",
-        "time",
-        "memory",
-    ]
+        size = [f"{finest['size']:g}", finest["unknowns"]]
+        lines.append([row["method"], order, small(row["least_error"]), *size, *times, peak, *growths])
     first = next((row for row in found["rows"] if "truth" in row), None)
-    parts = [
-        table(
-            "" if first is None else f"{first['quantity'].replace('_', ' ').capitalize()}: {first['truth']:.15g}", columns, lines
-        )
-    ]
+    title = "" if first is None else f"{first['quantity'].replace('_', ' ').capitalize()}: {first['truth']:.15g}"
+    parts = [table(title, COLUMNS, lines)]
     parts.append(_fastest(found["best"]))
     parts.append(_derivations(found["derivations"]))
     left = dict.fromkeys(f"{row['method']}: {row['note']}" for row in found["rows"] if "value" not in row)
@@ -175,16 +154,8 @@ def _fastest(best: Sequence[Mapping[str, Any]]) -> str:
     for entry in best:
         cost = entry["cost"]
         peer = [cost["peer"] or "", "" if cost["peer_solve"] is None else f"{1e3 * cost['peer_solve']:.2f}"]
-        lines.append(
-            [
-                f"{entry['error']:.0e}",
-                cost["method"],
-                f"{cost['size']:g}",
-                f"{1e3 * cost['solve']:.2f}",
-                "; ".join(cost["nearly"]),
-                *peer,
-            ]
-        )
+        ours = [f"{entry['error']:.0e}", cost["method"], f"{cost['size']:g}", f"{1e3 * cost['solve']:.2f}"]
+        lines.append([*ours, "; ".join(cost["nearly"]), *peer])
     return table("The fastest for an error of at most", ["error", "method", "size", "ms", "nearly as fast", "peer", "ms"], lines)
 
 

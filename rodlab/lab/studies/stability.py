@@ -164,16 +164,8 @@ def _beside(rows: Sequence[Row]) -> str:
     for lesson, own in _grouped(rows, "lesson").items():
         for row in own:
             group = row["group"] if row["kind"] == "contrast" else "loads from summed entries"
-            lines.append(
-                [
-                    "" if group in shown else group,
-                    row["case"],
-                    row["verdict"],
-                    small(row["forward"]),
-                    row["naive_verdict"],
-                    _naive(row),
-                ]
-            )
+            first = "" if group in shown else group
+            lines.append([first, row["case"], row["verdict"], small(row["forward"]), row["naive_verdict"], _naive(row)])
             shown.add(group)
         lines.append([f"    {lesson[0]}"])
     columns = ["contrast", "case", "ours", "error", "naive", "error"]
@@ -181,11 +173,8 @@ def _beside(rows: Sequence[Row]) -> str:
 
 
 def _naive(row: Row) -> str:
-    return (
-        row["naive_why"]
-        if not math.isfinite(row["naive_forward"]) or row["naive_verdict"] == "never ends"
-        else small(row["naive_forward"])
-    )
+    said = not math.isfinite(row["naive_forward"]) or row["naive_verdict"] == "never ends"
+    return str(row["naive_why"]) if said else small(row["naive_forward"])
 
 
 def _seconds(rows: Sequence[Row]) -> str:
