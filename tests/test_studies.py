@@ -619,6 +619,12 @@ def test_derivations_are_timed_apart(timed):
     assert all(row["cost"]["import"] > 0 and row["cost"]["derive"] > 0 for row in derivations)
 
 
+def test_a_question_asked_twice_is_one():
+    twice = [{"quantity": "load", "joints": [64, 32, 32]}, {"quantity": "load", "joints": [16, 128, 64]}]
+    found = study("convergence", ask={"ask": twice, "methods": ["strut, end", "strut, end"], "quick": {}})
+    assert [row["size"] for row in found.answer["rows"] if row["method"] == "strut, end"] == [16, 32, 64, 128]
+
+
 def test_tolerances_are_listed_from_coarse_to_fine():
     found = study("work-precision", quick=True, ask={"methods": ["rod, adapted"], "quick": {"repeats": 1}})
     sizes = [row["size"] for row in found.answer["rows"]]

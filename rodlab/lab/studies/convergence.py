@@ -14,6 +14,7 @@ from typing import Any
 
 from rodlab.lab.studies.asked import question_from
 from rodlab.lab.studies.cells import Cell
+from rodlab.lab.studies.every import method_named
 from rodlab.lab.studies.questions import names, only, question_of, sizes_of
 from rodlab.lab.studies.series import COUNTED, Series, exponent
 from rodlab.lab.table import known_to, small, table
@@ -57,7 +58,10 @@ def series(cells: Sequence[Cell], results: Sequence[Mapping[str, Any]]) -> list[
         groups.setdefault(asked.key, []).append((cell, result))
     found: list[Series] = []
     for group in groups.values():
-        given, sizes = group[0][0].given, tuple(cell.given["size"] for cell, _ in group)
+        given = group[0][0].given
+        if method_named(given["method"]).order is not None:  # tolerances stay as they are, coarse to fine
+            group.sort(key=lambda pair: float(pair[0].given["size"]))
+        sizes = tuple(cell.given["size"] for cell, _ in group)
         one = Series(question_from(given["question"]), given["method"], sizes, tuple(result for _, result in group))
         found += [one, *one.extrapolated]
     return found
