@@ -121,3 +121,14 @@ def test_exponentially_small_eigenvalues_are_said_to_be_unknown():
     assert lam > 10 * own
     assert {index for index, verified in seen if verified} == {1}
     assert seen[-1][1] is False or p is None
+
+
+@pytest.mark.parametrize(("k", "lam"), [([3e7, 2e-10, 8e13], 7e-6), ([3e7, 1e-6, 1e16], 7e-6), ([3e7, 1e-3, 1e18], 1.0)])
+def test_steps_of_zero_are_no_solution(k, lam):
+    """Springs over 21 decades: a solve loses an unknown, and Newton's steps shrink where the residual stays."""
+    strut = rl.Strut.from_joints(k=k, beta=[0.01 / 3] * 3, h=1 / 3)
+    try:
+        p = rl.equilibrium(strut, lam, np.array([-2.2, 1.37, -1.66]))
+    except rl.NoConvergence:
+        return
+    assert p.error < 1.0 or not p.index_verified

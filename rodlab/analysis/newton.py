@@ -113,7 +113,7 @@ class Newton:
             size = self.norm(step) if step is not None else math.inf
             self._tell(size, F)
             floor = 2 * EPS * max(self.norm(u), 1e-3 * start)
-            if step is not None and size <= floor:
+            if step is not None and size <= floor and self._fell(u, F):
                 return self._solution(u + step, step, size)
             if not size < last or step is None:
                 if last < math.inf and self._is_rounding(*before):  # steps can shrink no more; the error says how far
@@ -127,7 +127,7 @@ class Newton:
                 return u, F
             contraction = size / last if last < math.inf else math.inf
             left = size * contraction / (1 - contraction) if contraction < 0.5 else math.inf
-            if left <= floor:
+            if left <= floor and self._fell(beyond, after):
                 return self._solution(beyond, step, left)
             before, last = (u, F), size
             u, F = beyond, after
@@ -187,6 +187,10 @@ class Newton:
         sign = np.where(np.arange(u.size) % 2, 1.0, -1.0)
         noise = [self._residual(u * (1 + side * 4 * EPS * sign)) for side in (1, -1)]
         return all(moved is not None and self.norm(F) <= 16 * self.norm(moved - F) for moved in noise)
+
+    def _fell(self, u: Array, F: Array) -> bool:
+        """True where the residual fell with the steps, or is rounding: a solve that lost an unknown takes steps of zero there."""
+        return self.norm(F) <= 1e-3 * self.history[0].residual or self._is_rounding(u, F)
 
     def _tell(self, size: float, F: Array, damping: float = 1.0) -> None:
         self.history.append(NewtonStep(size, self.norm(F), damping))
