@@ -193,11 +193,11 @@ def study(chosen: argparse.Namespace) -> int:
     from rodlab.lab.studies.study import study
 
     start = time.perf_counter()
-    bar = _counted("cells")
+    bar, watch = _counted("cells")
     try:
         found = study(
             chosen.study, quick=chosen.quick, peers=chosen.peers, jobs=jobs_of(chosen), cluster=chosen.cluster, out=chosen.out,
-            ask=question_of(chosen), watch=bar,
+            ask=question_of(chosen), watch=watch,
         )  # fmt: skip
     finally:
         bar.close()
@@ -260,8 +260,8 @@ def _watched(what: str, work: int) -> Any:
     return lambda _: bar.update()
 
 
-def _counted(what: str) -> Any:
-    """A bar on stderr with the remaining time, as a callback of (done, in all)."""
+def _counted(what: str) -> tuple[Any, Any]:
+    """A bar on stderr with the remaining time, and a callback of (done, in all) that moves it."""
     from tqdm import tqdm
 
     bar = tqdm(desc=what, delay=2, leave=False)
@@ -271,8 +271,7 @@ def _counted(what: str) -> Any:
             bar.total, bar.initial, bar.n = total, done, done  # what a journal knows took no time
         bar.update(done - bar.n)
 
-    watch.close = bar.close  # type: ignore[attr-defined]
-    return watch
+    return bar, watch
 
 
 def _progress(entries: Any, what: str, total: int, work: int) -> Any:

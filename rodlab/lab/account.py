@@ -8,27 +8,19 @@
 Seconds are those of a whole process, the least of some runs; what something saves is what the process takes more with it.
 """
 
-import json
-import subprocess
 import sys
 from collections.abc import Mapping
 from typing import Any
 
-from rodlab.lab.scene import Scene, scene
+from rodlab.lab.fresh import in_fresh_process
+from rodlab.lab.running import answers_of, pictures
+from rodlab.lab.scene import Scene, run, scene
 from rodlab.lab.table import table
 
 EXTRAS = {"picture": "its picture", "sympy": "SymPy's derivation", "weight": "a weight q = 0"}
 PACKAGES = (
-    "numpy",
-    "scipy.linalg",
-    "scipy.sparse",
-    "scipy.optimize",
-    "scipy.interpolate",
-    "mpmath",
-    "sympy",
-    "matplotlib",
-    "flint",
-)
+    "numpy", "scipy.linalg", "scipy.sparse", "scipy.optimize", "scipy.interpolate", "mpmath", "sympy", "matplotlib", "flint",
+)  # fmt: skip
 CHILD = """
 import sys, time
 begin = time.perf_counter()
@@ -51,30 +43,12 @@ def once(name: str, extra: str, begin: float) -> dict[str, Any]:
 
         standard.KERNELS.clear()
         standard.DENSITIES.clear()
-    drawn = _run(chosen, picture=extra == "picture")
+    shown, answers = list(run(chosen)), answers_of(chosen)
+    if extra == "picture":
+        pictures(chosen, shown, answers)
     seconds = time.perf_counter() - begin
     there = [package for package in PACKAGES if package in sys.modules]
-    return {"seconds": seconds, "imports": there, "picture_bytes": drawn, **_kernel(chosen)}
-
-
-def _run(chosen: Scene, *, picture: bool) -> int:
-    """The scene's branches and questions, and, if wanted, the picture; bytes drawn."""
-    from rodlab.lab.scene import run
-
-    shown = list(run(chosen))
-    answers: Mapping[str, Any] = {}
-    if chosen.asks:
-        from rodlab.lab.asked import asked
-
-        answers = asked(chosen)
-    if not picture:
-        return 0
-    from rodlab.lab.picture import branches_picture, png
-
-    pictures = [answer.draw() for answer in answers.values()]
-    if shown:
-        pictures.append(branches_picture(shown, str(chosen.draw.get("y", "tip_angle")), "load"))
-    return sum(len(png(figure)) for figure in pictures)
+    return {"seconds": seconds, "imports": there, **_kernel(chosen)}
 
 
 def _kernel(chosen: Scene) -> dict[str, Any]:
@@ -100,8 +74,10 @@ def _kernel(chosen: Scene) -> dict[str, Any]:
 
 def account(name: str, runs: int = 3) -> dict[str, Any]:
     """{"scene", "rows"}: as named first, then with each thing that the scene leaves out, with the seconds saved by that."""
+    from rodlab.lab.studies.study import KINDS
+
     chosen = scene(name)
-    if set(chosen.asks) & {"convergence", "work-precision", "stability"}:
+    if set(chosen.asks) & set(KINDS):
         raise ValueError(f"account must be asked of a scene that is no study, which tells its own costs; it is {name!r}")
     extras = [extra for extra in EXTRAS if _spared(chosen, extra)]
     rows = [{"with": "as named", **_least(name, "nothing", runs)}]
@@ -122,14 +98,7 @@ def _spared(chosen: Scene, extra: str) -> bool:
 
 def _least(name: str, extra: str, runs: int) -> dict[str, Any]:
     """The quickest of the runs."""
-    found: list[dict[str, Any]] = []
-    for _ in range(runs):
-        done = subprocess.run([sys.executable, "-c", CHILD, name, extra], capture_output=True, text=True, check=False)  # noqa: S603
-        if done.returncode:
-            raise ArithmeticError(
-                f"the scene could not be run in a process of its own: {done.stderr.strip().rpartition(chr(10))[2]}"
-            )
-        found.append(json.loads(done.stdout))
+    found = [in_fresh_process(CHILD, name, extra) for _ in range(runs)]
     return min(found, key=lambda one: float(one["seconds"]))
 
 
@@ -140,15 +109,7 @@ def account_table(found: Mapping[str, Any]) -> str:
         first = row is found["rows"][0]
         iteration = "" if row["iteration"] is None else f"{1e6 * row['iteration']:.0f}"
         imports = ", ".join(row["imports"]) if first else ", ".join(f"+ {package}" for package in row["more_imports"])
-        lines.append(
-            [
-                row["with"],
-                f"{row['seconds']:.2f}",
-                "" if first else f"{row['saved']:.2f}",
-                iteration,
-                row["kernel"] or "",
-                imports,
-            ]
-        )
+        saved = "" if first else f"{row['saved']:.2f}"
+        lines.append([row["with"], f"{row['seconds']:.2f}", saved, iteration, row["kernel"] or "", imports])
     title = f"Scene {found['scene']}: what it costs, and what it is spared (whole processes, the least of {found['runs']})"
     return table(title, ["", "seconds", "saved", "F and J, us", "kernel", "imports"], lines)

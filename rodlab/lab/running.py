@@ -1,7 +1,7 @@
 """`rodlab run`: a scene's branches, tables for the terminal, picture and data for a folder; what it does not name is left out."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +21,7 @@ def run_scene(name: str, folder: Path | None, watch: Callable[[Point], Any] | No
     start, chosen = time.perf_counter(), scene(name)
     shown = list(run(chosen, watch))
     said = [{"branch": s.name, "seconds": s.seconds, **of_branch(s.branch)} for s in shown]
-    answers = _asked(chosen)
+    answers = answers_of(chosen)
     about = {"scene": chosen.name, "title": chosen.title, "source": chosen.source, "model": dict(chosen.model)}
     answer = framed("run", time.perf_counter() - start, {**about, "branches": said} | {k: a.said for k, a in answers.items()})
     answer["files"] = [] if folder is None else [str(path) for path in _written(chosen, shown, answers, answer, folder)]
@@ -33,7 +33,8 @@ def run_scene(name: str, folder: Path | None, watch: Callable[[Point], Any] | No
     return answer, "\n\n".join(parts), all([*(s.branch.completed for s in shown), *(a.complete for a in answers.values())])
 
 
-def _asked(chosen: Scene) -> "dict[str, Answer]":
+def answers_of(chosen: Scene) -> "dict[str, Answer]":
+    """What the scene asks about all of it; the room of questions is entered only if it does."""
     if not chosen.asks:
         return {}
     from rodlab.lab.asked import asked
@@ -41,19 +42,21 @@ def _asked(chosen: Scene) -> "dict[str, Answer]":
     return asked(chosen)
 
 
+def pictures(chosen: Scene, shown: Sequence[Shown], answers: "Mapping[str, Answer]") -> dict[str, bytes]:
+    """The scene's pictures as PNG, by name."""
+    from rodlab.lab.picture import branches_picture, png
+
+    drawn = {name: png(answer.draw()) for name, answer in answers.items()}
+    if shown:
+        drawn["diagram"] = png(branches_picture(shown, str(chosen.draw.get("y", "tip_angle")), _label(chosen)))
+    return drawn
+
+
 def _written(chosen: Scene, shown: list[Shown], answers: "dict[str, Answer]", answer: dict[str, Any], folder: Path) -> list[Path]:
     files = [Path(s.branch.save(folder / f"branch-{i}.json")) for i, s in enumerate(shown, start=1)]
     files.append(write_whole(folder / "scene.json", as_json(answer) + "\n"))
-    if chosen.draw and answers:
-        from rodlab.lab.picture import png
-
-        files += [write_whole(folder / f"{name}.png", png(a.draw())) for name, a in answers.items()]
-    if chosen.draw and shown:
-        from rodlab.lab.picture import branches_picture, png
-
-        picture = branches_picture(shown, str(chosen.draw.get("y", "tip_angle")), _label(chosen))
-        files.append(write_whole(folder / "diagram.png", png(picture)))
-    return files
+    drawn = pictures(chosen, shown, answers) if chosen.draw else {}
+    return files + [write_whole(folder / f"{name}.png", content) for name, content in drawn.items()]
 
 
 def _label(chosen: Scene) -> str:

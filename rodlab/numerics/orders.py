@@ -110,7 +110,7 @@ def _told(n: Array, e: Array, level: Array, local: Sequence[float], step: int) -
     With e = C n^-p (1 + c n^-q) the local orders are p + c g, g the change of n^-q over that of log n.
     """
     g = -np.diff(n ** -float(step)) / np.diff(np.log(n))
-    last: tuple[float, float, int] | None = None
+    told: list[tuple[float, float, int]] = []
     guesses = [local[i] + (local[i] - local[i - 1]) * g[i] / (g[i - 1] - g[i]) for i in range(1, len(local))]
     for i in range(len(local) - 1, 0, -1):
         guess = float(guesses[i - 1])
@@ -118,10 +118,10 @@ def _told(n: Array, e: Array, level: Array, local: Sequence[float], step: int) -
         spread += abs(guess - float(guesses[i - 2])) if i > 1 else 0.0
         rounding = sum(level[j] / e[j] for j in (i - 1, i, i + 1)) / np.log(n[i + 1] / n[i])
         found = guess, float(spread + rounding), i + 1
-        last = found if last is None else last
+        told.append(found)
         if found[1] <= SETTLED and all(abs(later - guess) <= SETTLED + found[1] for later in local[i + 1 :]):
             return found
-    return last or (local[-1], np.inf, len(local))
+    return told[0]
 
 
 def _near(local: float | None, order: float) -> bool:

@@ -13,7 +13,6 @@ Verdicts: see `rodlab.lab.studies.judge`. Times stand under "cost" alone; all el
 """
 
 import math
-import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -25,6 +24,7 @@ from rodlab.lab.studies import costs, truths
 from rodlab.lab.studies.cells import is_sentence
 from rodlab.lab.studies.judge import judged, judged_index, judged_naively, refused, unjudged
 from rodlab.lab.studies.naive import load_from_entries
+from rodlab.lab.studies.reference import exact_load, loads_below
 from rodlab.lab.studies.rod_truths import layer_tip, rod_load
 from rodlab.lab.studies.stiffness import Given, edges, in_words, rod_with, strut_with
 from rodlab.mechanics.buckling import buckling
@@ -42,7 +42,7 @@ def loads(n: int, K: Given = 1.0, rule: str = "end", mode: int = 1) -> dict[str,
     strut, words = strut_with(n, K, rule), in_words(K)
     k, hw = strut.joints.k, strut.joints.h * strut.joints.w
     said = {**_head("loads", words, f"{words}, n = {n}, {rule}", f"load {mode}", n), "lesson": SUMMING}
-    truth, cost = _timed(lambda: truths.uniform_load(n, rule, mode) if _is_one(K) else truths.exact_loads(k, hw, [mode])[0])
+    truth, cost = costs.timed(lambda: truths.uniform_load(n, rule, mode) if _is_one(K) else truths.exact_loads(k, hw, [mode])[0])
     with np.errstate(over="ignore"):
         size = float(np.max((k + np.append(k[1:], 0.0)) / hw)) * (2 if n > 1 else 1)
     said |= {"condition": size / float(truth), **judged_naively(lambda: load_from_entries(k, hw, mode), truth)}
@@ -73,7 +73,7 @@ def equilibrium(
         return {**said, **refused(error), "condition": math.nan, "cost": {}}
     said |= {"condition": condition(strut, p.u, lam), "index": p.index, "index_verified": p.index_verified}
     try:
-        (tip, unsure, residual, index), cost = _timed(lambda: _exact(strut, p.u, lam, p.error))
+        (tip, unsure, residual, index), cost = costs.timed(lambda: _exact(strut, p.u, lam, p.error))
     except ArithmeticError as error:
         if p.index_verified:
             raise
@@ -93,7 +93,9 @@ def index(n: int, K: Given = 1.0, rule: str = "end", mode: int = 1, off: float =
     lam = truths.beside(load, off)
     case = f"{words}, n = {n}, {rule}, lam = load {mode} (1 {'-' if off < 0 else '+'} {abs(off):g})"
     said = _head("index", f"|off| = {abs(off):g}", case, "index", n)
-    truth, cost = _timed(lambda: truths.uniform_count(n, rule, lam) if uniform else truths.exact_count(k, truths.times(lam, hw)))
+    truth, cost = costs.timed(
+        lambda: truths.uniform_count(n, rule, lam) if uniform else truths.exact_count(k, truths.times(lam, hw))
+    )
     kappa = condition(strut, np.zeros(n), lam)
     known, spent = _spent(lambda: strut.hessian(np.zeros(n), lam).inertia())
     found = judged_index(known.negative, known.negative + known.unclear, truth)
@@ -117,13 +119,13 @@ def layer(lam: float, u_hat: float = 1.0, K: float = 1.0, guess: str | None = No
 
 def elastica(ratio: float, mode: int = 1) -> dict[str, Any]:
     """The tip angle of the uniform rod buckled in a mode, at `ratio` times the buckling load, against elliptic functions."""
-    lam = ratio * ((2 * mode - 1) * math.pi / 2) ** 2
+    lam = ratio * exact_load(mode)
     known = exact_elastica(lam, mode)
     said = _head("elastica", f"mode {mode}", f"mode {mode}, lam = {ratio:g} lam_{mode}", "tip angle", None)
     rod = rod_with(1.0, 0.0)
     size, places = min(1.0, abs(known.tip_angle)), known.shape.s
     guess = size * (known.shape.phi / size).round(2)  # to a hundredth: near the branch, no nearer
-    others = [exact_elastica(lam, j) for j in range(1, 1 + int(math.sqrt(lam) / math.pi + 0.5))]
+    others = [exact_elastica(lam, j) for j in range(1, 1 + loads_below(lam))]
     return _of_rod(
         said, lambda: _with_answers(solved(rod, lam, lambda s: np.interp(s, places, guess))),
         [(side * one.tip_angle, one.index) for one in others for side in (1, -1)], known.error, known.condition,
@@ -134,7 +136,7 @@ def rod_loads(K: Given = 1.0, mode: int = 1) -> dict[str, Any]:
     """A buckling load of a straight rod whose K is piecewise constant, against the root of its transcendental equation."""
     words, (values, at) = in_words(K), edges(K)
     said = _head("rod_loads", words, words, f"load {mode}", None)
-    truth, cost = _timed(lambda: rod_load(values, at, mode))
+    truth, cost = costs.timed(lambda: rod_load(values, at, mode))
     said["condition"] = max(values) * ((mode - 0.5) * math.pi) ** 2 / float(truth)
     try:
         found, spent = _spent(lambda: buckling(rod_with(K, 0.0), [mode]))
@@ -213,12 +215,6 @@ def _with_answers(p: Any) -> Any:
     assert p.error >= 0
     assert p.index_verified is not None
     return p
-
-
-def _timed(question: Callable[[], Any]) -> tuple[Any, float]:
-    start = time.perf_counter()
-    found = question()
-    return found, time.perf_counter() - start
 
 
 def _meant(error: Exception) -> None:

@@ -9,6 +9,7 @@ runs: libraries of linear algebra are held to one thread, and answers pass throu
 import json
 import threading
 from collections.abc import Callable, Mapping
+from functools import cache
 from importlib import import_module
 from typing import Any, NamedTuple
 
@@ -38,19 +39,14 @@ def answer(cell: Cell) -> dict[str, Any]:
     >>> round(found["value"], 12), found["source"]
     (1.527864045, 'closed form')
     """
-    import numpy as np  # noqa: F401  what is limited must have been loaded
-    import scipy.linalg  # noqa: F401
-    from threadpoolctl import threadpool_limits
-
-    with ONE, threadpool_limits(limits=1):
+    with ONE, _libraries().limit(limits=1):
         try:
             found = _function(cell.function)(**cell.given)
         except MemoryError:
             found = {"failed": "it does not fit into memory", "crashed": True}
         except Exception as error:  # noqa: BLE001  one cell must not take the others with it
-            found = (
-                {"failed": str(error)} if is_sentence(error) else {"failed": f"{type(error).__name__}: {error}", "crashed": True}
-            )
+            crash = {"failed": f"{type(error).__name__}: {error}", "crashed": True}
+            found = {"failed": str(error)} if is_sentence(error) else crash
     plain: dict[str, Any] = json.loads(json.dumps(found))
     return plain
 
@@ -63,6 +59,16 @@ def is_sentence(error: Exception) -> bool:
 def settled(found: Mapping[str, Any]) -> dict[str, Any]:
     """An answer without what changes from run to run."""
     return {name: value for name, value in found.items() if name != VOLATILE}
+
+
+@cache
+def _libraries() -> Any:
+    """The libraries of linear algebra that numpy and scipy have loaded: looking for them takes a millisecond."""
+    import numpy as np  # noqa: F401  what is limited must have been loaded
+    import scipy.linalg  # noqa: F401
+    from threadpoolctl import ThreadpoolController
+
+    return ThreadpoolController()
 
 
 def _function(name: str) -> Callable[..., dict[str, Any]]:

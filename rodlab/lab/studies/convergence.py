@@ -16,7 +16,7 @@ from rodlab.lab.studies.asked import question_from
 from rodlab.lab.studies.cells import Cell
 from rodlab.lab.studies.every import method_named
 from rodlab.lab.studies.questions import names, only, question_of, sizes_of
-from rodlab.lab.studies.series import COUNTED, Series, exponent
+from rodlab.lab.studies.series import COSTS, COUNTED, Series, exponent
 from rodlab.lab.table import known_to, small, table
 from rodlab.numerics.arrays import whole
 
@@ -115,16 +115,14 @@ def summary(one: Series) -> dict[str, Any]:
     if one.question.quantity == COUNTED:
         told["settled_from"] = one.settled_from
     told["failed"] = len(one.failed)
-    told["cost"] = {
-        f"{name}_{what}": value for what in ("solve", "peak_bytes") for name, value in one.grows(what)._asdict().items()
-    }
+    told["cost"] = one.growth
     return told
 
 
 def text(found: Mapping[str, Any]) -> str:
     """One table a question: orders, floors, limits, growth."""
     parts = []
-    for _, group in groupby(found["orders"], key=_title_key):
+    for _, group in groupby(found["orders"], key=question_key):
         rows = list(group)
         parts.append(_counted(rows) if rows[0]["quantity"] == COUNTED else _converging(rows))
     failed = [row for row in found["rows"] if "value" not in row]
@@ -146,7 +144,7 @@ def _converging(rows: Sequence[Mapping[str, Any]]) -> str:
         limit = ["", "", ""]
         if "limit" in row:
             limit = [known_to(row["limit"], row["limit_estimate"]), small(row["limit_estimate"]), small(row["limit_error"])]
-        growths = ["" if "Richardson" in row["method"] else exponent(row["cost"], what) for what in ("solve", "peak_bytes")]
+        growths = ["" if "Richardson" in row["method"] else exponent(row["cost"], what) for what in COSTS]
         theory = "" if row["theory"] is None else row["theory"]
         cells.append([row["method"], theory, order, small(row["uncertainty"]), sizes, *limit, *growths, row["floor"] or ""])
     return table(_title(rows[0]), columns, cells)
@@ -169,9 +167,10 @@ def _title(row: Mapping[str, Any]) -> str:
 
 def complete(found: Mapping[str, Any]) -> bool:
     """True when every method answered some of its cells, and none crashed."""
-    answered = {(row["method"], _title_key(row)) for row in found["rows"] if "value" in row}
-    return all((row["method"], _title_key(row)) in answered for row in found["rows"]) and not found["crashed"]
+    answered = {(row["method"], question_key(row)) for row in found["rows"] if "value" in row}
+    return all((row["method"], question_key(row)) in answered for row in found["rows"]) and not found["crashed"]
 
 
-def _title_key(row: Mapping[str, Any]) -> tuple[Any, ...]:
+def question_key(row: Mapping[str, Any]) -> tuple[Any, ...]:
+    """What tells one question of a table from another: a row's entries of GROUP."""
     return tuple(row[name] for name in GROUP)

@@ -10,20 +10,21 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from rodlab.lab.picture import figure
+from rodlab.lab.studies.convergence import question_key
+from rodlab.lab.studies.series import COUNTED
 
 COLUMNS = 3
 LEAST = 1e-16  # an error drawn, where it is zero
 STRUTS = {"strut, end": "o", "strut, trapezoid": "s"}
 DEGREES = "^vDP*Xph"  # marks of the degrees 1, 2, ...
 BEHIND = {"boxstyle": "square,pad=0.05", "fc": "w", "ec": "none", "alpha": 0.8}
-GROUP = ("quantity", "mode", "lam", "K", "u_hat")
 
 
 def picture(found: Mapping[str, Any]) -> Figure:
     """One panel a question of the study's answer; whole numbers are left out."""
-    orders = {(_key(row), row["method"]): row for row in found["orders"]}
-    questions = [(key, list(rows)) for key, rows in groupby(found["rows"], key=_key)]
-    questions = [(key, rows) for key, rows in questions if key[0] != "index" and any(row.get("error") for row in rows)]
+    orders = {(question_key(row), row["method"]): row for row in found["orders"]}
+    questions = [(key, list(rows)) for key, rows in groupby(found["rows"], key=question_key)]
+    questions = [(key, rows) for key, rows in questions if key[0] != COUNTED and any(row.get("error") for row in rows)]
     if not questions:
         raise ValueError(
             "the study must ask for a quantity that converges to be drawn; it asks for whole numbers, or nothing was answered"
@@ -80,10 +81,6 @@ def _dress(axes: Axes, title: str) -> None:
     axes.tick_params(labelsize=7.5)
     axes.grid(True, which="major", lw=0.3, color="0.85")
     axes.margins(x=0.12)
-
-
-def _key(row: Mapping[str, Any]) -> tuple[Any, ...]:
-    return tuple(row[name] for name in GROUP)
 
 
 def _title(key: tuple[Any, ...]) -> str:

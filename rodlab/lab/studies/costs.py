@@ -30,15 +30,16 @@ def spent(
     solved: list[float] = []
     while len(solved) < repeats and sum(solved) < ENOUGH and (not solved or solved[-1] < SLOW):
         if not made or made[-1] < KEPT:
-            ready, seconds = _timed(setup)
+            ready, seconds = timed(setup)
             made.append(seconds)
-        found, seconds = _timed(partial(solve, ready))
+        found, seconds = timed(partial(solve, ready))
         solved.append(seconds)
     cost = {"setup": min(made), "solve": min(solved), "median": statistics.median(solved), "repeats": len(solved)}
     return found, {**cost, "peak_bytes": _peak(setup, solve) if memory and solved[-1] < TRACED else None}
 
 
-def _timed(run: Callable[[], Any]) -> tuple[Any, float]:
+def timed(run: Callable[[], Any]) -> tuple[Any, float]:
+    """What a call returns, and its seconds."""
     start = time.perf_counter()
     found = run()
     return found, time.perf_counter() - start

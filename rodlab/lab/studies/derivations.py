@@ -1,9 +1,8 @@
 """What a symbolic derivation costs: a kernel of the house derived anew, in a process that has not seen SymPy."""
 
-import json
-import subprocess
-import sys
 from typing import Any
+
+from rodlab.lab.fresh import in_fresh_process
 
 SCRIPT = """
 import json, sys, time
@@ -26,8 +25,4 @@ print(json.dumps({"kernel": known.name, "functions": source.count("def "), "cost
 
 def derived(model: str, rule: str) -> dict[str, Any]:
     """Name and number of functions of the kernel; seconds of importing SymPy, of deriving and of compiling it."""
-    done = subprocess.run([sys.executable, "-c", SCRIPT, model, rule], capture_output=True, text=True, check=False)  # noqa: S603
-    if done.returncode:
-        return {"failed": done.stderr.strip().rpartition("\n")[2]}
-    found: dict[str, Any] = json.loads(done.stdout)
-    return found
+    return in_fresh_process(SCRIPT, model, rule)

@@ -34,13 +34,13 @@ def cells(table: Mapping[str, Any], *, quick: bool = False) -> list[tuple[str, d
     >>> cells({"grid": [{"case": "loads", "n": [1, 5], "mode": [1, 2, "n"]}]})[-1]
     ('cases:loads', {'n': 5, 'mode': 5})
     """
-    groups = table.get("grid")
+    groups: Any = table.get("grid")
     tables = isinstance(groups, list) and groups and all(isinstance(one, Mapping) for one in groups)
     if set(table) != {"grid"} or not tables:
         held = ", ".join(table) or "nothing"
         raise ValueError(f"[stability] must hold [[stability.grid]] tables and nothing else; it holds {held}")
     found: dict[str, tuple[str, dict[str, Any]]] = {}
-    for group in groups or ():
+    for group in groups:
         for kind, given in _multiplied(group):
             if not (quick and group.get("slow", False)):
                 found.setdefault(json.dumps([kind, given], sort_keys=True), (kind, given))

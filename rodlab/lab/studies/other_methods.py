@@ -24,8 +24,8 @@ import numpy as np
 from rodlab.analysis.downhill import steepest_descent
 from rodlab.analysis.newton import NoConvergence
 from rodlab.lab.studies.asked import Found, Method, Question
+from rodlab.lab.studies.methods import ORDER
 from rodlab.mechanics import elastica as exact
-from rodlab.mechanics.joints import RULES
 from rodlab.mechanics.recurrence import Floats, Recurrence, index_of
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import EPS, Array
@@ -211,10 +211,9 @@ def _posed(question: Question, _: float) -> Posed:
 
 def other_methods() -> list[Method]:
     """Every method of the house but Newton's on the strut and on the rod, which have a list of their own."""
-    ruled = list(zip(RULES, (1, 2), strict=True))
     return [
         *(_collocation(degree) for degree in DOUBLED),
-        *(_shooting(rule, order) for rule, order in ruled),
-        *(_descent(rule, order) for rule, order in ruled),
+        *(_shooting(rule, order) for rule, order in ORDER.items()),
+        *(_descent(rule, order) for rule, order in ORDER.items()),
         Method("elliptic functions, mpmath", None, (EPS,), (EPS,), _posed, _elliptic),
     ]

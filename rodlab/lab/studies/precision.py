@@ -15,7 +15,7 @@ from rodlab.lab.studies.cells import Cell
 from rodlab.lab.studies.convergence import OF_MODEL, rows_of, series, summary
 from rodlab.lab.studies.every import HOUSE, method_named, others, rivals
 from rodlab.lab.studies.questions import names, only, question_of, sizes_of
-from rodlab.lab.studies.series import exponent
+from rodlab.lab.studies.series import COSTS, exponent
 from rodlab.lab.table import small, table
 from rodlab.numerics.arrays import whole
 
@@ -25,7 +25,7 @@ COLUMNS = (
 )  # fmt: skip
 DECADES = tuple(10.0**-i for i in range(2, 14))
 NEARLY = 1.25  # ratio of times that is not told apart
-DERIVED = {"strut, end": ("strut", "end"), "strut, trapezoid": ("strut", "trapezoid"), "rod": ("rod", "")}
+DERIVED = (("strut", "end"), ("strut", "trapezoid"), ("rod", ""))  # kernels: model and rule
 
 
 def cells(model: Mapping[str, Any], given: Mapping[str, Any], *, quick: bool = False) -> list[Cell]:
@@ -37,7 +37,7 @@ def cells(model: Mapping[str, Any], given: Mapping[str, Any], *, quick: bool = F
     only("work-precision.ask", own.get("ask", {}), ("quantity", "mode", "lam", *OF_MODEL))
     question = {**question_of({**model, **own.get("ask", {})}), "guess": "modest"}
     repeats = whole("repeats", own.get("repeats", 5), least=1)
-    found = [Cell("derivations:derived", {"model": kind, "rule": rule}) for kind, rule in DERIVED.values()]
+    found = [Cell("derivations:derived", {"model": kind, "rule": rule}) for kind, rule in DERIVED]
     for name in _asked(own.get("methods"), question, peers=bool(given.get("peers"))):
         for size in _sizes(name, own, quick=quick):
             cell = {"question": question, "method": name, "size": size, "repeats": repeats, "memory": not name.startswith("AUTO")}
@@ -72,7 +72,9 @@ def answer(cells: Sequence[Cell], results: Sequence[Mapping[str, Any]]) -> dict[
     solved = [(cell, found) for cell, found in pairs if cell.function == "measured:one"]
     every = series([cell for cell, _ in solved], [found for _, found in solved])
     rows = [row for one in every for row in rows_of(one)]
-    best = [_best(rows, wanted) for wanted in DECADES]
+    peers = {method.name for method in rivals()}
+    closed = {method.name for method in others() if len(method.sizes) == 1}
+    best = [_best(rows, wanted, peers, closed) for wanted in DECADES]
     methods = [{**summary(one), "least_error": min(one.column("error"), default=None)} for one in every]
     told = [entry for entry in best if entry["cost"]["method"]]
     crashed = sum("crashed" in found for found in results)
@@ -80,13 +82,12 @@ def answer(cells: Sequence[Cell], results: Sequence[Mapping[str, Any]]) -> dict[
     return {**tables, "crashed": crashed, "cost": {"sentence": sentence(told)}}
 
 
-def _best(rows: Sequence[Mapping[str, Any]], wanted: float) -> dict[str, Any]:
+def _best(rows: Sequence[Mapping[str, Any]], wanted: float, peers: set[str], closed: set[str]) -> dict[str, Any]:
     """The fastest answer with an error of at most `wanted`, those nearly as fast, and the fastest peer.
 
-    A closed form, which knows one rod only, is not among them.
+    A closed form, which knows one rod only, is not among ours.
     """
     good = [row for row in rows if "value" in row and row["error"] <= wanted]
-    peers, closed = {method.name for method in rivals()}, {method.name for method in others() if len(method.sizes) == 1}
     ours = sorted((row for row in good if row["method"] not in peers | closed), key=_seconds)
     theirs = sorted((row for row in good if row["method"] in peers), key=_seconds)
     first = ours[0] if ours else None
@@ -137,7 +138,7 @@ def text(found: Mapping[str, Any]) -> str:
         peak = "" if cost["peak_bytes"] is None else f"{cost['peak_bytes'] / 1e6:.2g}"
         order = "" if not row["clear"] else f"{row['order']:.2f}"
         times = [f"{1e3 * cost[name]:.2f}" for name in ("setup", "solve", "median")]
-        growths = [exponent(row["cost"], what) for what in ("solve", "peak_bytes")]
+        growths = [exponent(row["cost"], what) for what in COSTS]
         size = [f"{finest['size']:g}", finest["unknowns"]]
         lines.append([row["method"], order, small(row["least_error"]), *size, *times, peak, *growths])
     first = next((row for row in found["rows"] if "truth" in row), None)
@@ -146,6 +147,7 @@ def text(found: Mapping[str, Any]) -> str:
     parts.append(_fastest(found["best"]))
     parts.append(_derivations(found["derivations"]))
     left = dict.fromkeys(f"{row['method']}: {row['note']}" for row in found["rows"] if "value" not in row)
+    left |= dict.fromkeys(f"derivation: {row['failed']}" for row in found["derivations"] if "failed" in row)
     return "\n\n".join([*parts, *left, str(found["cost"]["sentence"])])
 
 
@@ -163,6 +165,7 @@ def _derivations(rows: Sequence[Mapping[str, Any]]) -> str:
     lines: list[list[Any]] = [
         [row["kernel"], row["functions"], *(f"{1e3 * row['cost'][name]:.0f}" for name in ("import", "derive", "compile"))]
         for row in rows
+        if "failed" not in row
     ]
     title = "Kernels, shipped, derived anew in a fresh process (ms)"
     return table(title, ["kernel", "functions", "import SymPy", "derive", "compile"], lines)

@@ -49,6 +49,16 @@ def exact_load(mode: int, K: float = 1.0) -> float:
     return ((2 * mode - 1) * math.pi / 2) ** 2 * K
 
 
+def loads_below(lam: float, K: float = 1.0) -> int:
+    """How many loads of the uniform rod are below lam: the index of the straight one.
+
+    >>> loads_below(300.0), loads_below(1.0)
+    (6, 0)
+    """
+    most = 2 + int(math.sqrt(max(lam, 0.0) / K) / math.pi)
+    return sum(exact_load(j, K) < lam for j in range(1, most + 1))
+
+
 @lru_cache(maxsize=32)
 def truth(question: Question) -> Truth:
     """What is true. Raises `ValueError` for a question that has no answer, `NoConvergence` where none could be computed."""
@@ -77,8 +87,7 @@ def _load(question: Question) -> Truth:
 def _index(question: Question) -> Truth:
     lam = load_of(question)
     if question.uniform:
-        most = 2 + int(math.sqrt(max(lam, 0.0) / float(question.K)) / math.pi)
-        return Truth(float(sum(exact_load(j, float(question.K)) < lam for j in range(1, most + 1))), 0.0, "loads below lam")
+        return Truth(float(loads_below(lam, float(question.K))), 0.0, "loads below lam")
     p = equilibrium(rod(question), lam)
     if not p.index_verified:
         raise NoConvergence(f"the index of {p.equations!r} at {lam:g} could not be verified", ())

@@ -15,6 +15,7 @@ from rodlab.numerics.orders import Growth, Limit, Observed, growth, observed_ord
 
 STAGES = 3  # of Richardson's extrapolation that are shown
 EXTRAPOLATED = ("strut, end", "strut, trapezoid")  # in several stages: all powers of their errors are known
+COSTS = ("solve", "peak_bytes")  # whose growth is told
 COUNTED = "index"  # the quantity that is a whole number
 
 
@@ -104,9 +105,9 @@ class Series:
             bound = 2 ** (k + 1) * max(a["bound"] for a in used)  # of a first stage three times, of later ones hardly more
             error = abs(value - last["truth"])
             found.append({**last, "value": value, "error": error, "bound": bound, "claimed": None, "cost": cost})
-        return Extrapolated(
-            self.question, f"{self.method}, Richardson {k}", tuple(n for n, _ in self.good[k:]), tuple(found), self, k
-        )
+        sizes = tuple(n for n, _ in self.good[k:])
+        theory = (self.order or 0) + k * powers_apart(self.method)  # one power of the error is gone a stage
+        return Extrapolated(self.question, f"{self.method}, Richardson {k}", sizes, tuple(found), theory)
 
     @cached_property
     def settled_from(self) -> float | None:
@@ -115,14 +116,18 @@ class Series:
         first = wrong[-1] + 1 if wrong else 0
         return self.good[first][0] if first < len(self.good) else None
 
-    def grows(self, what: str) -> Growth:
-        """How a cost grows with the number of unknowns: "solve" in seconds, or "peak_bytes"."""
-        known: dict[float, float] = {}
-        for _, found in self.good:
-            cost = found["cost"].get(what)
-            if cost:
-                known[found["unknowns"]] = min(cost, known.get(found["unknowns"], math.inf))
-        return growth(sorted(known), [known[n] for n in sorted(known)]) if len(known) > 1 else Growth(None, None, None)
+    @property
+    def growth(self) -> dict[str, float | None]:
+        """How the cost grows with the number of unknowns: seconds of a solve, and peak memory."""
+        told: dict[str, float | None] = {}
+        for what in COSTS:
+            known: dict[float, float] = {}
+            for _, found in self.good:
+                cost = found["cost"].get(what)
+                if cost:
+                    known[found["unknowns"]] = min(cost, known.get(found["unknowns"], math.inf))
+            told |= growth_of(known, what)
+        return told
 
     @property
     def floor(self) -> str:
@@ -142,26 +147,26 @@ class Series:
 
 @dataclass(frozen=True)
 class Extrapolated(Series):
-    """A column of Richardson's scheme."""
+    """A column of Richardson's scheme, with its order of theory. Its limit is that of the whole scheme, told with the strut."""
 
-    base: Series | None = None
-    stage: int = 0
-
-    @cached_property
-    def order(self) -> int | None:
-        """One power of the error is gone a stage."""
-        base = self.base
-        return None if base is None else (base.order or 0) + self.stage * powers_apart(self.method)
+    theory: int = 0
 
     @property
-    def limit(self) -> Limit | None:
-        """None: it is that of the whole scheme, told with the strut."""
-        return None
+    def order(self) -> int:
+        """Of theory."""
+        return self.theory
 
-    @cached_property
-    def extrapolated(self) -> list[Series]:
-        """None of its own."""
-        return []
+    @property
+    def limit(self) -> None:
+        """None: it is told with the strut."""
+        return
+
+
+def growth_of(costs: Mapping[float, float | None], what: str) -> dict[str, float | None]:
+    """Exponent of a cost in the size, its uncertainty and the size it holds from, by names that end in `what`; costs by size."""
+    known = {n: cost for n, cost in sorted(costs.items()) if cost}
+    grown = growth(list(known), list(known.values())) if known else Growth(None, None, None)
+    return {f"{name}_{what}": value for name, value in grown._asdict().items()}
 
 
 def exponent(cost: Mapping[str, Any], what: str) -> str:

@@ -13,9 +13,8 @@ from typing import Any
 from rodlab.lab.studies import grid
 from rodlab.lab.studies.cells import Cell
 from rodlab.lab.studies.judge import NAIVE, VERDICTS
-from rodlab.lab.studies.series import exponent
+from rodlab.lab.studies.series import COSTS, exponent, growth_of
 from rodlab.lab.table import small, table
-from rodlab.numerics.orders import Growth, growth
 
 Row = Mapping[str, Any]
 TITLES = {
@@ -103,12 +102,10 @@ def _growth(results: Sequence[Row]) -> list[dict[str, Any]]:
     for (kind,), rows in _grouped(timed, "kind").items():
         sizes = sorted({row["n"] for row in rows})
         told: dict[str, Any] = {"kind": kind, "n": sizes}
-        for what in ("solve", "peak_bytes"):
+        for what in COSTS:
             known = {n: [row["cost"][what] for row in rows if row["n"] == n and row["cost"][what]] for n in sizes}
-            told[what] = [statistics.median(known[n]) if known[n] else None for n in sizes]
-            seen = [(n, cost) for n, cost in zip(sizes, told[what], strict=True) if cost]
-            grown = growth([n for n, _ in seen], [cost for _, cost in seen]) if seen else Growth(None, None, None)
-            told |= {f"{name}_{what}": value for name, value in grown._asdict().items()}
+            medians = {n: statistics.median(known[n]) if known[n] else None for n in sizes}
+            told |= {what: list(medians.values()), **growth_of(medians, what)}
         found.append(told)
     return found
 
@@ -182,7 +179,7 @@ def _seconds(rows: Sequence[Row]) -> str:
     for row in rows:
         for n, seconds, peak in zip(row["n"], row["solve"], row["peak_bytes"], strict=True):
             last = n == row["n"][-1]
-            growths = [exponent(row, what) if last else "" for what in ("solve", "peak_bytes")]
+            growths = [exponent(row, what) if last else "" for what in COSTS]
             memory = "" if peak is None else f"{peak / 1e6:.3g}"
             lines.append([row["kind"], n, f"{1e3 * seconds:.1f}", memory, *growths])
     title = "What an answer costs, its error and index with it: medians, and how they grow with n"
