@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from rodlab.mechanics.koiter import Koiter, koiter
     from rodlab.mechanics.rod import Rod
     from rodlab.mechanics.strut import Strut
-    from rodlab.mechanics.terms import Term, end_torque, foundation, self_weight, term
+    from rodlab.mechanics.terms import Term, end_force, end_torque, foundation, potential, self_weight, shearable, term
     from rodlab.numerics.bordered import Bordered
     from rodlab.numerics.factor import factor
     from rodlab.numerics.tridiagonal import Tridiagonal
@@ -85,6 +85,7 @@ _HOME = {
     "diagram": "analysis.diagram",
     "distinguished": "analysis.distinguished",
     "elastica": "mechanics.elastica",
+    "end_force": "mechanics.terms",
     "end_torque": "mechanics.terms",
     "equilibrium": "analysis.equilibrium",
     "expansion": "analysis.expansion",
@@ -96,8 +97,10 @@ _HOME = {
     "imperfection": "analysis.imperfection",
     "invariants": "mechanics.invariants",
     "koiter": "mechanics.koiter",
+    "potential": "mechanics.terms",
     "read": "lab.saved",
     "self_weight": "mechanics.terms",
+    "shearable": "mechanics.terms",
     "steepest_descent": "analysis.downhill",
     "study": "lab.studies.study",
     "switch": "analysis.switching",
@@ -109,10 +112,10 @@ _HOME = {
 __all__ = [  # the same names; a test compares
     "Bordered", "Branch", "Buckling", "Diagram", "Distinguished", "Elastica", "Equations", "Equilibria", "Event",
     "Expansion", "Imperfection", "Invariants", "Koiter", "Newton", "NoConvergence", "Point", "Rod", "Shape", "Strut",
-    "Study",    "Term", "Tridiagonal", "all_equilibria", "branch", "branch_point", "branch_points", "buckling", "buckling_loads",
-    "census", "conjugate_points", "deflation", "diagram", "distinguished", "elastica", "end_torque", "equilibrium",
-    "expansion", "factor", "fold", "folds", "follow", "foundation", "imperfection", "invariants", "koiter", "read",
-    "self_weight", "steepest_descent", "study", "switch", "term", "uniqueness", "vary",
+    "Study", "Term", "Tridiagonal", "all_equilibria", "branch", "branch_point", "branch_points", "buckling", "buckling_loads",
+    "census", "conjugate_points", "deflation", "diagram", "distinguished", "elastica", "end_force", "end_torque", "equilibrium",
+    "expansion", "factor", "fold", "folds", "follow", "foundation", "imperfection", "invariants", "koiter",
+    "potential", "read", "self_weight", "shearable", "steepest_descent", "study", "switch", "term", "uniqueness", "vary",
 ]  # fmt: skip
 
 

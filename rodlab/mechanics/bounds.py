@@ -15,6 +15,7 @@ from rodlab.numerics.arrays import EPS, Array
 if TYPE_CHECKING:
     from rodlab.mechanics.strut import Strut
 
+KNOWN = ("bending", "bending_with_rest", "end_load", "end_torque", "end_force", "self_weight")
 Bound = Callable[[Any, float], tuple[Any, Any]]  # (du, dlam) -> (d, c)
 
 
@@ -29,16 +30,19 @@ def lipschitz(strut: "Strut", u: Array, lam: float) -> Bound:
     It returns a diagonal d with -d <= J' - J <= d, and a bound on the entries of the change of d_lam; shapes (n,), convex in
     the distances. Infinite for a foundation or a term of one's own.
     """
-    if any(term.energy is not None for term in strut.terms) or strut.kernel().hardens:
+    if any(term.energy is not None or term.name not in KNOWN for term in strut.loaded):
         return unknown
     hw = strut.joints.h if strut.joints.weights is None else strut.joints.h * strut.joints.weights
     sine, cosine, carried = np.abs(np.sin(u)), np.abs(np.cos(u)), strut.carried
+    aside = abs(strut.parameters.get("N1", 0.0))
 
     def bound(du: Array | float, dlam: float) -> tuple[Array, Array]:
         hwdu = hw * du
         half = np.asarray(du) / 2
         d = (sine + half) * (abs(lam) * hwdu)
         d += hw * dlam
+        if aside:
+            d += (cosine + half) * (aside * hwdu)
         if carried is not None:
             d += 2 * du * carried
         return d, (cosine + half) * hwdu
@@ -52,7 +56,7 @@ def embedding(strut: "Strut", lam: float) -> tuple[float, float]:
     w_i is a sum of its differences: w_i^2 <= sum(1/k) w.D^T k D w (Cauchy and Schwarz), and J = D^T k D - C.
     """
     a = strut.springs.total_compliance
-    softest = abs(lam) * strut.joints.h * strut.joints.most_weight
+    softest = (abs(lam) + abs(strut.parameters.get("N1", 0.0))) * strut.joints.h * strut.joints.most_weight
     if strut.carried is not None:
         softest += float(strut.carried.max())
     return a, a * softest

@@ -40,7 +40,9 @@ def uniqueness(strut: Strut, lam: float) -> Uniqueness:
     lam = number("lam", lam)
     softest = abs(lam) * strut.joints.h * strut.joints.w
     for term in strut.terms:
-        if term.name in HANGING and term.energy is None:
+        if term.name == "end_force":
+            softest = softest + abs(strut.parameters["N1"]) * strut.joints.h * strut.joints.w
+        elif term.name in HANGING and term.energy is None:
             q = np.abs(strut.parameters["q"]) * strut.joints.h * strut.joints.w
             softest = softest + strut.places.carried(q)
         elif not (term.name in LINEAR and term.energy is None):

@@ -6,6 +6,7 @@ With e(a, b, x, z; lam) the energy of link i (a = phi_{i-1}, b = phi_i, and x, z
     f = e_a + e_b          net moment on the link
     k = -e_ab              coupling of the two angles     Hessian = D^T diag(k) D - diag(c)
     c = -(e_b + e_a)_b on angle b,  c_below = -(e_a + e_b)_a on angle a
+    e_lam, -e_N1           how far the link reaches up and aside: sums of them are z and x of the end
     e_x, e_z               force on the joint             ... + the moments of all forces above
     e_xx, e_xz, e_zz       its change with the place
     m_p, f_p, ...          their change with each parameter p, which may be followed in the load's place
@@ -23,7 +24,7 @@ from sympy.printing.numpy import NumPyPrinter
 
 from rodlab.mechanics import link as standard_link
 from rodlab.mechanics.link import Link
-from rodlab.mechanics.terms import Term
+from rodlab.mechanics.terms import END_FORCE, Term
 
 ARGUMENTS = ("a", "b", "x", "z", "lam")
 
@@ -37,6 +38,8 @@ class LinkDerivation:
     moments: tuple[Expr, Expr]
     stiffness: tuple[Expr, Expr, Expr]
     moments_lam: tuple[Expr, Expr]
+    reach: tuple[Expr, Expr]  # (dx, dz)
+    yielding: tuple[Expr, Expr, Expr]  # e in (lam, lam), (lam, N1), (N1, N1): zero unless the rod shears or extends
     forces: tuple[Expr, Expr]
     hardening: tuple[Expr, Expr, Expr]
     by: dict[str, tuple[Expr, Expr, Expr, Expr]]  # derivatives of (m, f, e_x, e_z) in each parameter
@@ -57,6 +60,22 @@ def energy_of(terms: Sequence[Term], link: Link) -> Expr:
     return sympy.Add(*(_energy(term)(link) for term in terms))
 
 
+def pushed(terms: Sequence[Term]) -> bool:
+    """True when a dead force N1 is among the terms."""
+    return any(term.name == "end_force" for term in terms)
+
+
+def reach_of(terms: Sequence[Term], link: Link) -> tuple[tuple[Expr, Expr], tuple[Expr, Expr, Expr]]:
+    """(-e_N1, e_lam), and e in (lam, lam), (lam, N1), (N1, N1); also where no force N1 acts."""
+    lam, N1 = Symbol("lam", real=True), Symbol("N1", real=True)
+    acts = pushed(terms)
+    e = energy_of(terms if acts else [*terms, END_FORCE], Link(link._weighted))
+    absent = {} if acts else {N1: 0}
+    dx, dz = (tidy(part.subs(absent)) for part in (-e.diff(N1), e.diff(lam)))
+    hh, hN, NN = (tidy(e.diff(*pair).subs(absent)) for pair in ((lam, lam), (lam, N1), (N1, N1)))
+    return (dx, dz), (hh, hN, NN)
+
+
 def derive(terms: Sequence[Term], *, weighted: bool) -> LinkDerivation:
     """Differentiate the sum of the terms; about 0.1 s. Raises `ValueError` for a term this strut cannot carry.
 
@@ -65,22 +84,23 @@ def derive(terms: Sequence[Term], *, weighted: bool) -> LinkDerivation:
     >>> d.moments, d.stiffness
     ((k*(-a + b), -h*lam*sin(b)), (k, h*lam*cos(b), 0))
     """
-    link = Link(weighted)
+    link = Link(weighted, pushed(terms))
     a, b, x, z, lam = (getattr(link, name) for name in ARGUMENTS)
     e = energy_of(terms, link)
     if any(not tidy(e.diff(place, angle)).is_zero for place in (x, z) for angle in (a, b)):
         raise ValueError("a term must not multiply the place (x, z) of a link by its angles; write it as a sum")
-    if not tidy(e.diff(lam, 2)).is_zero:
-        raise ValueError("a term must be linear in the load lam")
     if any(not tidy(e.diff(lam, place)).is_zero for place in (x, z)):
         raise ValueError("the load lam must act through the angles of a link, not its place")
     m, f = -e.diff(a), e.diff(a) + e.diff(b)
+    reach, yielding = reach_of(terms, link)
     return LinkDerivation(
         name=kernel_name(terms, weighted=weighted),
         energy=e,
         moments=(tidy(m), tidy(f)),
         stiffness=(tidy(m.diff(b)), tidy(-f.diff(b)), tidy(-f.diff(a))),
         moments_lam=(tidy(m.diff(lam)), tidy(f.diff(lam))),
+        reach=reach,
+        yielding=yielding,
         forces=(tidy(e.diff(x)), tidy(e.diff(z))),
         hardening=(tidy(e.diff(x, 2)), tidy(e.diff(x, z)), tidy(e.diff(z, 2))),
         by={
@@ -115,7 +135,7 @@ def _energy(term: Term) -> Callable[[Link], Expr]:
                 _ = e.free_symbols
             except (TypeError, AttributeError, sympy.SympifyError) as error:
                 raise ValueError(f"the term {term.name} must return a SymPy expression of the link: {error}") from error
-            known = {*ARGUMENTS, "h", "w", "k", "beta", *term.parameters}
+            known = {*ARGUMENTS, "N1", "h", "w", "k", "beta", *term.parameters}
             unknown = sorted({s.name for s in e.free_symbols} - known)
             if unknown:
                 raise ValueError(f"the term {term.name} uses {', '.join(unknown)} but was given {dict(term.parameters)!r}")
@@ -138,6 +158,8 @@ def _class_source(d: LinkDerivation) -> str:
         method("stiffness", angles, d.stiffness),
         method("moments_lam", angles, d.moments_lam),
     ]
+    if not d.reach[1].is_zero:  # of a load that does not act nothing is asked
+        methods += [method("reach", angles, d.reach), method("yielding", angles, d.yielding)]
     methods += [method(f"moments_{name}", angles, known[:2]) for name, known in d.by.items()]
     if places:
         methods += [method("forces", joints, d.forces), method("hardening", joints, d.hardening)]
@@ -148,6 +170,7 @@ def _class_source(d: LinkDerivation) -> str:
         f"    parameters = {d.parameters!r}\n"
         f"    places = {places}\n"
         f"    hardens = {any(not e.is_zero for e in d.hardening)}\n"
+        f"    yields = {any(not e.is_zero for e in d.yielding)}\n"
     )
     return head + "".join(methods)
 

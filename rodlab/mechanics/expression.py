@@ -14,9 +14,10 @@ import numpy as np
 
 from rodlab.numerics.arrays import Array
 
-Node = Callable[[Any], Any]
+Node = Callable[[Any], Any]  # of the values of the variables and the functions by name
 
-ALLOWED = "numbers, s, pi, + - * / **, parentheses, exp log sqrt sin cos tan and Piecewise((value, s < a), ..., (value, True))"
+ALLOWED = "numbers, {names}, pi, + - * / **, parentheses, exp log sqrt sin cos tan"
+PIECES = " and Piecewise((value, s < a), ..., (value, True))"
 FUNCTIONS: dict[str, Callable[[Any], Any]] = {
     "exp": np.exp, "log": np.log, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos, "tan": np.tan,
 }  # fmt: skip
@@ -27,7 +28,7 @@ UNARY: dict[type[ast.unaryop], Callable[[Any], Any]] = {ast.UAdd: operator.pos, 
 
 
 class Expression:
-    """The function of s that a text stands for; `breaks` are the bounds of its pieces.
+    """The function of s, or of other variables, that a text stands for; `breaks` are the bounds of its pieces.
 
     >>> f = Expression("Piecewise((1, s < 1/2), (1 + s, True))")
     >>> f(np.array([0.25, 0.5])), f.breaks
@@ -37,8 +38,8 @@ class Expression:
     ValueError: "__import__('os')" is not an expression in s: __import__ is not known; allowed are ...
     """
 
-    def __init__(self, text: str) -> None:
-        self.text = text
+    def __init__(self, text: str, variables: tuple[str, ...] = ("s",)) -> None:
+        self.text, self.variables = text, variables
         try:
             tree = ast.parse(text.strip(), mode="eval").body
             self._breaks: list[float] = []
@@ -51,12 +52,21 @@ class Expression:
 
     def _refused(self, why: str) -> ValueError:
         shown = repr(self.text) if len(self.text) <= 60 else repr(self.text[:57] + "...")
-        return ValueError(f"{shown} is not an expression in s: {why}; allowed are {ALLOWED}")
+        names = " and ".join(self.variables)
+        allowed = ALLOWED.format(names=", ".join(self.variables)) + (PIECES if "s" in self.variables else "")
+        return ValueError(f"{shown} is not an expression in {names}: {why}; allowed are {allowed}")
 
     def __call__(self, s: Array) -> Array:
         s = np.asarray(s, dtype=np.float64)
         with np.errstate(all="ignore"):
-            return np.asarray(self._value(s) + np.zeros_like(s), dtype=np.float64)
+            return np.asarray(self._value({**FUNCTIONS, "s": s}) + np.zeros_like(s), dtype=np.float64)
+
+    def of(self, **symbols: Any) -> Any:
+        """The same as a SymPy expression in symbols, decimals taken for the fractions they are."""
+        import sympy
+
+        functions = {name: getattr(sympy, name) for name in FUNCTIONS}
+        return sympy.nsimplify(self._value({**functions, **symbols}), rational=True)
 
     def __repr__(self) -> str:
         return f"Expression({self.text!r})"
@@ -67,21 +77,21 @@ class Expression:
                 raise _NotAllowed(f"{x} stands alone")
             case ast.Constant(value=int() | float() as x):
                 return _constant(x)
-            case ast.Name(id="s"):
-                return lambda s: s
+            case ast.Name(id=name) if name in self.variables:
+                return operator.itemgetter(name)
             case ast.Name(id="pi"):
                 return _constant(math.pi)
             case ast.UnaryOp(op=op, operand=inner) if type(op) in UNARY:
                 act, value = UNARY[type(op)], self._compile(inner)
-                return lambda s: act(value(s))
+                return lambda at: act(value(at))
             case ast.BinOp(op=op, left=left, right=right) if type(op) in BINARY:
                 join, a, b = BINARY[type(op)], self._compile(left), self._compile(right)
-                return lambda s: join(a(s), b(s))
-            case ast.Call(func=ast.Name(id="Piecewise"), args=pieces, keywords=[]) if pieces:
+                return lambda at: join(a(at), b(at))
+            case ast.Call(func=ast.Name(id="Piecewise"), args=pieces, keywords=[]) if pieces and "s" in self.variables:
                 return self._piecewise(pieces)
             case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]) if name in FUNCTIONS:
-                function, value = FUNCTIONS[name], self._compile(inner)
-                return lambda s: function(value(s))
+                value = self._compile(inner)
+                return lambda at: at[name](value(at))
         raise _NotAllowed(f"{_name(node)} is not known")
 
     def _piecewise(self, pieces: list[ast.expr]) -> Node:
@@ -90,10 +100,10 @@ class Expression:
         if (np.diff(ends) <= 0).any():
             raise _NotAllowed("the bounds of Piecewise must ascend")
 
-        def chosen(s: Any) -> Any:
-            piece, out = np.searchsorted(ends, s, side="right"), np.empty_like(s)
+        def chosen(at: Any) -> Any:
+            piece, out = np.searchsorted(ends, at["s"], side="right"), np.empty_like(at["s"])
             for i, value in enumerate(values):
-                out = np.where(piece == i, value(s), out)
+                out = np.where(piece == i, value(at), out)
             return out
 
         return chosen
@@ -106,7 +116,7 @@ class Expression:
                 case ast.Tuple(
                     elts=[value, ast.Compare(left=ast.Name(id="s"), ops=[ast.Lt() | ast.LtE() as below], comparators=[bound])]
                 ) if piece is not pieces[-1]:
-                    a = float(self._compile(bound)(np.nan))
+                    a = float(self._compile(bound)({**FUNCTIONS, "s": np.nan}))
                     if not math.isfinite(a):
                         raise _NotAllowed("a bound of Piecewise must be a number")
                     self._breaks.append(a)  # for s < a the next piece begins at a itself

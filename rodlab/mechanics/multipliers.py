@@ -60,17 +60,24 @@ def discrete(terms: "Sequence[Term]", n: int, *, upright: bool) -> Balance:
 
 
 def continuous(limit: "Limit") -> Balance:
-    """The rod, whose density without the load is the bending of the principle."""
-    s, lam = Symbol("s", real=True), Symbol("lambda", real=True)
+    """The rod, whose density without the load is the bending of the principle.
+
+    Forces on the length that are given, a weight, leave N1 and N3 known; where they depend on the place, a foundation, the balance
+    of forces does not decouple, and they stay unknown.
+    """
+    s, t, lam = (Symbol(name, real=True) for name in ("s", "t", "lambda"))
     phi, x, z, N1, N3 = (Function(name)(s) for name in ("phi", "x", "z", "N1", "N3"))
-    bending = limit.density.subs(limit.lam, 0)
-    L = bending.subs(limit.along, simultaneous=True)
+    pushed = Symbol("N1", real=True)  # a dead force on the end
+    L = limit.density.subs({limit.lam: 0, pushed: 0}).subs(limit.along, simultaneous=True)
     L += N1 * (x.diff(s) - sin(phi)) + N3 * (z.diff(s) - cos(phi))
-    force = tuple(Eq(Derivative(L.diff(place.diff(s)), s).doit(), 0) for place in (x, z))
-    ends = (Eq(Function("N1")(1), 0), Eq(Function("N3")(1), -lam))  # stationary in x(1) and z(1), which also carries the load
-    forces: dict[Expr, Expr] = {N1: sympy.Integer(0), N3: -lam}
-    if not all(bool(equation.subs(forces).doit()) for equation in force):
-        raise ArithmeticError("the forces do not balance")  # pragma: no cover
+    force = tuple(Eq(Derivative(L.diff(place.diff(s)), s).doit(), L.diff(place)) for place in (x, z))
+    held = (pushed if limit.density.has(pushed) else sympy.Integer(0), -lam)
+    ends = tuple(Eq(N.subs(s, 1), value) for N, value in zip((N1, N3), held, strict=True))  # stationary in x(1) and z(1)
+    forces: dict[Expr, Expr] = {
+        N: value - sympy.integrate(equation.rhs.subs(s, t), (t, s, 1))
+        for N, value, equation in zip((N1, N3), held, force, strict=True)
+        if not equation.rhs.has(x, z)
+    }
     moment = Derivative(L.diff(phi.diff(s)), s) - L.diff(phi)
     reduced = sympy.expand(moment.subs(forces).doit())
     return Balance(L, (*force, *ends), forces, (Eq(moment, 0),), (reduced,))

@@ -29,9 +29,24 @@ class Places:
         self.own = self.theta * self.w
         self.own[-1] = self.w[-1]
 
-    def of(self, phi: Array) -> tuple[Array, Array]:
-        """x, z of the joints 1..n."""
-        return self._sum(np.sin(phi), np.sin(self.phi0)), self._sum(np.cos(phi), np.cos(self.phi0))
+    def of(self, phi: Array, x0: float = 0.0) -> tuple[Array, Array]:
+        """x, z of the joints 1..n, the foot at (x0, 0)."""
+        x, z = self._sum(np.sin(phi), np.sin(self.phi0)), self._sum(np.cos(phi), np.cos(self.phi0))
+        return (x + x0 if x0 else x), z
+
+    def along(self, reach: Array, first: float) -> Array:
+        """Places of the joints 1..n where link i reaches so far, (n,), and the foot's link `first`."""
+        steps = self.theta * reach
+        steps[-1] = reach[-1]
+        steps[0] += first
+        steps[1:] += (1 - self.theta) * reach[:-1]
+        return np.asarray(np.cumsum(steps))
+
+    @property
+    def by_foot(self) -> tuple[float, float]:
+        """How x and z of all joints change with the angle of the foot."""
+        first = self.h * (1 - self.theta)
+        return float(first * np.cos(self.phi0)), float(-first * np.sin(self.phi0))
 
     def _sum(self, values: Array, clamp: Any) -> Array:
         steps = self.own * values

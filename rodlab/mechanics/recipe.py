@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodlab.mechanics.terms import Term, end_torque, foundation, self_weight
+from rodlab.mechanics.terms import Term, end_force, end_torque, foundation, potential, self_weight, shearable
 
 if TYPE_CHECKING:
     from rodlab.mechanics.rod import Rod
@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     from rodlab.mechanics.varied import VariedStrut
     from rodlab.mechanics.varied_rod import VariedRod
 
-TERMS: dict[str, Callable[..., Term]] = {"self_weight": self_weight, "foundation": foundation, "end_torque": end_torque}
+TERMS: dict[str, Callable[..., Term]] = {
+    make.__name__: make for make in (self_weight, foundation, end_torque, end_force, shearable, potential)
+}
 BY_RULE = ("n", "K", "u_hat", "rule", "phi0", "breaks")
 BY_JOINT = ("k", "beta", "h", "beta0", "weights")
 OF_ROD = ("K", "u_hat", "phi0", "breaks", "degree", "mesh", "tol", "points")
@@ -72,9 +74,9 @@ def _rod(given: dict[str, Any], terms: tuple[Term, ...]) -> "Rod":
 def recipe_of(arguments: Mapping[str, Any], terms: Sequence[Term]) -> dict[str, Any] | None:
     """The recipe of a strut's arguments; None where one of them is a function."""
     recipe = {name: _plain(value) for name, value in arguments.items() if name != "terms" and value is not None}
-    said = {term.name: {name: _plain(value) for name, value in term.parameters.items()} for term in terms}
+    said = {term.name: {name: _plain(value) for name, value in term.arguments.items()} for term in terms}
     values = [*recipe.values(), *(value for parameters in said.values() for value in parameters.values())]
-    if any(callable(value) for value in values) or any(term.energy is not None for term in terms):
+    if any(callable(value) for value in values) or any(term.own for term in terms):
         return None
     return {**recipe, "terms": said} if said else recipe
 

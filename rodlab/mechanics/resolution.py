@@ -173,19 +173,15 @@ def _inertia_of(rod: "Rod", u: Array, lam: float, off: float) -> Inertia:
 
 def springs(rod: "Rod", u: Array, condensed: Condensed, lam: float) -> tuple[Array, Array]:
     """k (N,) and the response of the ends to a turn of all nodes, (N, 2), in which no stiffness takes part."""
-    W, grid = rod.kernel(lam), rod.grid
-    angle, slope = rod.at_gauss(u)
-    _, mixed, soft = W.stiffness(slope, angle, lam, **rod.given(W))
-    rest = grid.tested(mixed + np.zeros_like(angle), soft + np.zeros_like(angle))
+    _, mixed, soft = rod.stiffness(u, lam)
+    none = np.zeros_like(rod.grid.s)
+    rest = rod.grid.tested(mixed + none, soft + none)
     return condensed.springs(rest)
 
 
 def softening(rod: "Rod", u: Array, lam: float) -> Array:
     """How much the load softens at Gauss's points: -W_phiphi, (N, m)."""
-    W = rod.kernel(lam)
-    angle, slope = rod.at_gauss(u)
-    soft = W.stiffness(slope, angle, lam, **rod.given(W))[2]
-    return -np.broadcast_to(soft, angle.shape)
+    return -np.broadcast_to(rod.stiffness(u, lam)[2], rod.grid.s.shape)
 
 
 def _resolved(rod: "Rod", u: Array, lam: float) -> bool:
@@ -193,15 +189,16 @@ def _resolved(rod: "Rod", u: Array, lam: float) -> bool:
     return bool((np.diff(rod.mesh) ** 2 * softening(rod, u, lam).max(axis=1) < RESOLVED * K).all())
 
 
-def between(rod: "Rod", u: Array, s: Array) -> tuple[Array, Array, Array]:
-    """phi, x, z at arclengths s (k,): the polynomials, and their sine and cosine integrated from the last mesh point."""
-    grid = rod.grid
+def between(rod: "Rod", u: Array, lam: float, s: Array) -> tuple[Array, Array, Array]:
+    """phi, x, z at arclengths s (k,): the polynomials, and x', z' integrated from the last mesh point."""
+    grid, W = rod.grid, rod.kernel()
     Y = grid.nodal(u, rod.phi0)
-    x, z = (f.reshape(grid.N, -1)[:, -1] for f in (f[1:] for f in rod.shape(u)))
+    x, z = (f[:: grid.degree] for f in rod.reached(u, lam))
     i = np.clip(np.searchsorted(grid.mesh, s, side="left") - 1, 0, grid.N - 1)
     start = grid.mesh[i]
     inner = start[:, None] + (s - start)[:, None] * grid.basis.c
     angle = np.stack([grid.value(Y, column) for column in inner.T], axis=1)
+    given = {name: rod.profiles[name].at(inner) for name in W.parameters}
+    dx, dz = W.reach(np.zeros_like(angle), angle, lam, **given)
     weight = (s - start)[:, None] * grid.basis.b
-    foot = [np.append(0.0, place[:-1])[i] for place in (x, z)]
-    return grid.value(Y, s), foot[0] + np.sum(weight * np.sin(angle), axis=1), foot[1] + np.sum(weight * np.cos(angle), axis=1)
+    return grid.value(Y, s), x[i] + np.sum(weight * dx, axis=1), z[i] + np.sum(weight * dz, axis=1)

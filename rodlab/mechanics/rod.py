@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodlab.mechanics import bounds, remesh, resolution, rod_bounds
+from rodlab.mechanics import bounds, remesh, resolution, rod_bounds, rod_ends, rod_places
 from rodlab.mechanics.kernels import density
 from rodlab.mechanics.mirror import mirror
 from rodlab.mechanics.profile import Profile
@@ -25,6 +25,7 @@ from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term, c
 from rodlab.numerics.arrays import Array, number, vector, whole
 from rodlab.numerics.collocated import Collocated
 from rodlab.numerics.collocation import Grid
+from rodlab.numerics.full import Full
 from rodlab.numerics.inertia import Inertia
 from rodlab.numerics.mesh import given_mesh, spread_out
 from rodlab.numerics.pieces import smooth_pieces
@@ -86,6 +87,7 @@ class Rod:
         self.stuck = 0.0  # errors which a finer mesh does not mend
         first = np.union1d(spread_out(FIRST, self.breaks), self.pieces) if mesh is None else given_mesh(mesh, self.breaks)
         self._collocate(first, degree)
+        self.x0 = 0.0  # of the foot
         self.kernel()  # what a term of one's own lacks is said at once
 
     def _pieces(self) -> tuple[Array, Array]:
@@ -200,15 +202,19 @@ class Rod:
         u, lam = self._state(phi, lam)
         W, grid = self.kernel(lam), self.grid
         angle, slope = grid.at_gauss(grid.nodal(u, self.phi0))
-        V = np.sum(grid.hb * W.energy(slope, angle, lam, **self.given(W)))
+        places = rod_places.places(self, angle, grid) if W.places else ()
+        V = np.sum(grid.hb * W.energy(slope, angle, *places, lam, **self.given(W)))
         return complex(V) if np.iscomplexobj(V) else float(V)  # type: ignore[return-value]
 
     def gradient(self, phi: Any, lam: float) -> Array:
         """dV/dphi, shape (N m,). `ValueError` unless phi (N m,) and lam are finite."""
         return self.residual(*self._state(phi, lam))
 
-    def hessian(self, phi: Any, lam: float) -> Collocated:
-        """d2V/dphi2: `.toarray()`, `.index`, `.solve(b)`; symmetric, of overlapping blocks."""
+    def hessian(self, phi: Any, lam: float) -> Collocated | Full:
+        """d2V/dphi2: `.toarray()`, `.index`, `.solve(b)`; symmetric, of overlapping blocks.
+
+        Full where forces change with the place (a foundation): then a solve costs O((N m)^3).
+        """
         return self.jacobian(*self._state(phi, lam))
 
     def d_lam(self, phi: Array, lam: float) -> Array:
@@ -227,16 +233,42 @@ class Rod:
 
     def tested(self, u: Array, lam: float, grid: Grid) -> Array:
         """What each interval contributes to the gradient at its nodes, (N, m+1)."""
-        W = self.kernel(lam)
-        angle, slope = self.at_gauss(u) if grid is self.grid else grid.at_gauss(grid.nodal(u, self.phi0))
-        return grid.tested(*W.moments(slope, angle, lam, **self.given(W)))
+        return grid.tested(*self.moments(u, lam, grid))
 
-    def jacobian(self, u: Array, lam: float) -> Collocated:
-        """The Hessian, of arguments that are not looked at."""
-        W, grid = self.kernel(lam), self.grid
+    def moments(self, u: Array, lam: float, grid: Grid | None = None) -> tuple[Any, Any]:
+        """W_phi' and the moment on a unit of length at Gauss's points: W_phi, and what forces on the places do."""
+        W = self.kernel(lam)
+        own = grid is None or grid is self.grid
+        angle, slope = self.at_gauss(u) if own else grid.at_gauss(grid.nodal(u, self.phi0))  # type: ignore[union-attr]
+        m, f = W.moments(slope, angle, lam, **self.given(W))
+        if W.places:
+            Q1, Q3 = rod_places.forces(self, angle, self.grid if grid is None else grid)
+            f = f + np.cos(angle) * Q1 - np.sin(angle) * Q3
+        return m, f
+
+    def stiffness(self, u: Array, lam: float) -> tuple[Any, Any, Any]:
+        """W_phi'phi', W_phi'phi and the change of the moment above with the angle, the forces as they are."""
+        W = self.kernel(lam)
         angle, slope = self.at_gauss(u)
         k, mixed, soft = W.stiffness(slope, angle, lam, **self.given(W))
-        return grid.second(self._stiff if k is self.parameters["K"] else grid.stiff(k), mixed, soft)
+        if W.places:
+            Q1, Q3 = rod_places.forces(self, angle, self.grid)
+            soft = soft - np.sin(angle) * Q1 - np.cos(angle) * Q3
+        return k, mixed, soft
+
+    def local(self, u: Array, lam: float) -> Collocated:
+        """The second variation with the forces of terms as they are: all of it but for a foundation."""
+        k, mixed, soft = self.stiffness(u, lam)
+        return self.grid.second(self._stiff if k is self.parameters["K"] else self.grid.stiff(k), mixed, soft)
+
+    def hardening(self, u: Array) -> Array | None:
+        """The rest of it over all nodes, the foot's first: (N m + 1, N m + 1); None where no force changes with the place."""
+        return rod_places.hardening(self, self.at_gauss(u)[0]) if self.kernel().hardens else None
+
+    def jacobian(self, u: Array, lam: float) -> Collocated | Full:
+        """The Hessian, of arguments that are not looked at."""
+        local, rest = self.local(u, lam), self.hardening(u)
+        return local if rest is None else Full(local.toarray() + rest[1:, 1:])
 
     @cached_property
     def _stiff(self) -> Array:
@@ -244,10 +276,20 @@ class Rod:
 
     def by(self, name: str, u: Array, lam: float, unit: Any = 1.0) -> Array:
         """The derivative of the gradient in the load, or in a parameter that grows like `unit`, a number or (N, m)."""
+        return Grid.gathered(self.by_nodes(name, u, lam, unit))
+
+    def by_nodes(self, name: str, u: Array, lam: float, unit: Any = 1.0) -> Array:
+        """The same as what each interval contributes at its nodes, (N, m+1)."""
         W, grid = self.kernel(), self.grid
         angle, slope = self.at_gauss(u)
-        m, f = getattr(W, f"moments_{name}")(slope, angle, lam, **self.given(W))
-        return Grid.gathered(grid.tested(np.broadcast_to(m * unit, angle.shape), f * unit))
+        given = self.given(W)
+        m, f = getattr(W, f"moments_{name}")(slope, angle, lam, **given)
+        f = f * unit
+        if W.places and hasattr(W, f"forces_{name}"):
+            changes = getattr(W, f"forces_{name}")(*rod_places.places(self, angle, grid), **given)
+            Q1, Q3 = (rod_places.carried(change * unit, grid) for change in changes)
+            f = f + np.cos(angle) * Q1 - np.sin(angle) * Q3
+        return grid.tested(np.broadcast_to(m * unit, angle.shape), f)
 
     def at_gauss(self, u: Array) -> tuple[Array, Array]:
         """Angles and their derivatives at Gauss's points, (N, m) each; kept for the last u that was asked for."""
@@ -275,7 +317,7 @@ class Rod:
         """Name -> function of (u, lam): what a point can be asked for."""
         return {
             "tip_angle": lambda u, _: float(u[-1]),
-            "height": lambda u, _: self.height(u),
+            "height": lambda u, lam: self.boundary("lam", u, lam),
             "energy": self.energy,
             "moment": self.moment,
             "curvature": self.curvature,
@@ -335,6 +377,28 @@ class Rod:
             return u
         return other.grid.onto(other.grid.nodal(u, 0.0 if direction else other.phi0), self.grid)
 
+    # --- what is given at its ends, and what that brings about: see `rodlab.mechanics.rod_ends` -------------------------
+
+    def under(self, **values: float) -> "Rod":
+        """The same with these boundary values: phi0 and x0 of the foot, N1 and tau on the end."""
+        other = self.fresh()
+        other.phi0, other.x0 = values.pop("phi0", self.phi0), values.pop("x0", self.x0)
+        other.parameters = {**self.parameters, **values}
+        other.profiles = {**self.profiles, **{name: Profile(name, value) for name, value in values.items()}}
+        return other
+
+    def boundary(self, name: str, u: Array, lam: float) -> float:
+        """dV/d(name) of a boundary value: lam, N1, tau, phi0 or x0."""
+        return rod_ends.boundary(self, name, u, lam)
+
+    def column(self, name: str, u: Array, lam: float) -> Array:
+        """d(gradient)/d(name) of a boundary value, shape (N m,)."""
+        return rod_ends.column(self, name, u, lam)
+
+    def second(self, one: str, other: str, u: Array, lam: float) -> float:
+        """d2V/d(one) d(other) of two boundary values."""
+        return rod_ends.second(self, one, other, u, lam)
+
     # --- shape ---------------------------------------------------------------------------------------------------
 
     def unstressed(self) -> Array:
@@ -379,6 +443,11 @@ class Rod:
         x, z = (self.grid.antiderivative(f(angle)) for f in (np.sin, np.cos))
         return np.append(0.0, x), np.append(0.0, z)
 
+    def reached(self, u: Array, lam: float) -> tuple[Array, Array]:
+        """x, z of the nodes under a load, by which the rod may be sheared and extended."""
+        x, z = (self.grid.antiderivative(slope) for slope in rod_ends.reach(self, u, lam))
+        return np.append(self.x0, x + self.x0), np.append(0.0, z)
+
     def nodes(self, u: Array) -> tuple[Array, Array]:
         """s and phi of the nodes, the clamp first."""
         return self.grid.places, np.append(self.phi0, u)
@@ -386,12 +455,12 @@ class Rod:
     def shape_at(self, u: Array, lam: float) -> tuple[Array, Array, Array, Array]:
         """s, phi and x, z, inside of the intervals as accurate as at mesh points: those of the companion."""
         fine, v = resolution.corrected(self, u, lam)
-        return *fine.nodes(v), *fine.shape(v)
+        return *fine.nodes(v), *fine.reached(v, lam)
 
     def between(self, u: Array, lam: float, s: Array) -> tuple[Array, Array, Array]:
         """phi, x, z at any arclengths s (k,)."""
         fine, v = resolution.corrected(self, u, lam)
-        return resolution.between(fine, v, s)
+        return resolution.between(fine, v, lam, s)
 
     def derivation(self) -> "Limit":
         """SymPy's limit of the link: density, Euler and Lagrange's equation, first-order system; LaTeX in a notebook."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rodlab.mechanics import rod_places
 from rodlab.mechanics.bounds import Bound, unknown
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.collocation import Grid
@@ -16,7 +17,7 @@ from rodlab.numerics.slack import Slack
 if TYPE_CHECKING:
     from rodlab.mechanics.rod import Rod
 
-KNOWN = ("bending", "bending_with_rest", "end_load", "end_torque")
+KNOWN = ("bending", "bending_with_rest", "end_load", "end_torque", "end_force", "self_weight")
 WIDE = float(np.finfo(np.longdouble).eps)
 
 
@@ -27,11 +28,11 @@ def lipschitz(rod: "Rod", u: Array, lam: float) -> Bound:
     grid = rod.grid
     angle, _ = rod.at_gauss(u)
     sine, cosine = np.abs(np.sin(angle)), np.abs(np.cos(angle))
-    E, hb = np.abs(grid.E), grid.hb
+    E, hb, carried = np.abs(grid.E), grid.hb, dead(rod)
 
     def bound(moved: Array | float, dlam: float) -> tuple[Slack, Array]:
         half = np.asarray(moved) / 2
-        d = hb * (abs(lam) * moved * (sine + half) + dlam)
+        d = hb * (abs(lam) * moved * (sine + half) + dlam + moved * carried)
         return Slack(grid, d), Grid.gathered((hb * (moved * (cosine + half))) @ E)
 
     return bound
@@ -44,7 +45,17 @@ def embedding(rod: "Rod", lam: float) -> tuple[float, float]:
     sum(alpha^2 / (h b K)) times the bending part of w.Jw.
     """
     a, softest = rod.compliance
-    return a, a * abs(lam) * softest
+    return a, a * (abs(lam) + float(np.max(dead(rod)))) * softest
+
+
+def dead(rod: "Rod") -> Array | float:
+    """Size of the dead forces besides the load that are carried at Gauss's points: N1, and weight."""
+    W = rod.kernel()
+    carried: Array | float = abs(rod.parameters.get("N1", 0.0))
+    if W.places and not W.hardens:
+        none = np.zeros_like(rod.grid.s)
+        carried = carried + sum(np.abs(Q) for Q in rod_places.forces(rod, none, rod.grid))
+    return carried
 
 
 def compliance(rod: "Rod") -> tuple[float, float]:
@@ -61,12 +72,10 @@ def compliance(rod: "Rod") -> tuple[float, float]:
 
 def rounding(rod: "Rod", u: Array, lam: float, v: Array, eps: float = EPS) -> float:
     """Bound on |v . (computed gradient - exact gradient)| for arithmetic of this precision."""
-    W, grid = rod.kernel(lam), rod.grid
+    grid = rod.grid
     Y = grid.nodal(u, rod.phi0)
-    angle, slope = grid.at_gauss(Y)
-    given = rod.given(W)
-    m, f = W.moments(slope, angle, lam, **given)
-    k, _, _ = W.stiffness(slope, angle, lam, **given)
+    m, f = rod.moments(u, lam)
+    k, _, _ = rod.stiffness(u, lam)
     V = grid.nodal(v, 0.0)
     values, slopes = grid.at_gauss(V)
     differences = np.abs(Y[:, 1:] - Y[:, :1]) @ np.abs(grid.slope) / grid.h[:, None]
@@ -77,8 +86,7 @@ def rounding(rod: "Rod", u: Array, lam: float, v: Array, eps: float = EPS) -> fl
 
 def sizes(rod: "Rod", u: Array, lam: float) -> Array:
     """Sum of the sizes of what is added up to each entry of the gradient, (N m,)."""
-    W, grid = rod.kernel(lam), rod.grid
-    angle, slope = rod.at_gauss(u)
-    m, f = W.moments(slope, angle, lam, **rod.given(W))
+    grid = rod.grid
+    m, f = rod.moments(u, lam)
     G = (grid.b * np.abs(m)) @ np.abs(grid.D) + (grid.hb * np.abs(f)) @ np.abs(grid.E)
     return Grid.gathered(np.asarray(G))

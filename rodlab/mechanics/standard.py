@@ -17,6 +17,7 @@ class bending:
     parameters = ('k',)
     places = False
     hardens = False
+    yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, k: Value) -> Value:
@@ -45,6 +46,7 @@ class bending_with_rest:
     parameters = ('beta', 'k')
     places = False
     hardens = False
+    yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, beta: Value, k: Value) -> Value:
@@ -77,6 +79,7 @@ class bending_and_end_load:
     parameters = ('h', 'k')
     places = False
     hardens = False
+    yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, h: Value, k: Value) -> Value:
@@ -95,6 +98,14 @@ class bending_and_end_load:
         return 0.0, -h*sin(b)
 
     @staticmethod
+    def reach(a: Array, b: Array, lam: float, h: Value, k: Value) -> tuple[Value, Value]:
+        return h*sin(b), h*cos(b)
+
+    @staticmethod
+    def yielding(a: Array, b: Array, lam: float, h: Value, k: Value) -> tuple[Value, Value, Value]:
+        return 0.0, 0.0, 0.0
+
+    @staticmethod
     def moments_k(a: Array, b: Array, lam: float, h: Value, k: Value) -> tuple[Value, Value]:
         return b - a, 0.0
 
@@ -105,6 +116,7 @@ class bending_and_end_load_weighted:
     parameters = ('h', 'k', 'w')
     places = False
     hardens = False
+    yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, h: Value, k: Value, w: Value) -> Value:
@@ -123,6 +135,15 @@ class bending_and_end_load_weighted:
         return 0.0, -h*w*sin(b)
 
     @staticmethod
+    def reach(a: Array, b: Array, lam: float, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
+
+    @staticmethod
+    def yielding(a: Array, b: Array, lam: float, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
+        return 0.0, 0.0, 0.0
+
+    @staticmethod
     def moments_k(a: Array, b: Array, lam: float, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
         return b - a, 0.0
 
@@ -133,6 +154,7 @@ class bending_with_rest_and_end_load:
     parameters = ('beta', 'h', 'k')
     places = False
     hardens = False
+    yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value) -> Value:
@@ -151,6 +173,14 @@ class bending_with_rest_and_end_load:
         return 0.0, -h*sin(b)
 
     @staticmethod
+    def reach(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
+        return h*sin(b), h*cos(b)
+
+    @staticmethod
+    def yielding(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
+        return 0.0, 0.0, 0.0
+
+    @staticmethod
     def moments_beta(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
         return -k, 0.0
 
@@ -165,6 +195,7 @@ class bending_with_rest_and_end_load_weighted:
     parameters = ('beta', 'h', 'k', 'w')
     places = False
     hardens = False
+    yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, w: Value) -> Value:
@@ -183,6 +214,15 @@ class bending_with_rest_and_end_load_weighted:
         return 0.0, -h*w*sin(b)
 
     @staticmethod
+    def reach(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
+
+    @staticmethod
+    def yielding(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
+        return 0.0, 0.0, 0.0
+
+    @staticmethod
     def moments_beta(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
         return -k, 0.0
 
@@ -192,114 +232,142 @@ class bending_with_rest_and_end_load_weighted:
 
 
 class limit_of_bending:
-    """W = K*p**2/2"""
+    """W = K*phi_s**2/2"""
 
     parameters = ('K',)
+    places = False
+    hardens = False
+    yields = False
 
     @staticmethod
-    def energy(p: Array, phi: Array, lam: float, K: Value) -> Value:
-        return (1/2)*K*p**2
+    def energy(phi_s: Array, phi: Array, lam: float, K: Value) -> Value:
+        return (1/2)*K*phi_s**2
 
     @staticmethod
-    def moments(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
-        return K*p, 0.0
+    def moments(phi_s: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return K*phi_s, 0.0
 
     @staticmethod
-    def stiffness(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value, Value]:
+    def stiffness(phi_s: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value, Value]:
         return K, 0.0, 0.0
 
     @staticmethod
-    def moments_lam(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+    def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
         return 0.0, 0.0
 
     @staticmethod
-    def moments_K(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
-        return p, 0.0
+    def moments_K(phi_s: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return phi_s, 0.0
 
 
 class limit_of_bending_with_rest:
-    """W = K*(p - u_hat)**2/2"""
+    """W = K*(phi_s - u_hat)**2/2"""
 
     parameters = ('K', 'u_hat')
+    places = False
+    hardens = False
+    yields = False
 
     @staticmethod
-    def energy(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> Value:
-        return (1/2)*K*(p - u_hat)**2
+    def energy(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> Value:
+        return (1/2)*K*(phi_s - u_hat)**2
 
     @staticmethod
-    def moments(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
-        return K*(p - u_hat), 0.0
+    def moments(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return K*(phi_s - u_hat), 0.0
 
     @staticmethod
-    def stiffness(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value, Value]:
+    def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value, Value]:
         return K, 0.0, 0.0
 
     @staticmethod
-    def moments_lam(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+    def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
         return 0.0, 0.0
 
     @staticmethod
-    def moments_K(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
-        return p - u_hat, 0.0
+    def moments_K(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return phi_s - u_hat, 0.0
 
     @staticmethod
-    def moments_u_hat(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+    def moments_u_hat(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
         return -K, 0.0
 
 
 class limit_of_bending_and_end_load:
-    """W = K*p**2/2 + lam*cos(phi)"""
+    """W = K*phi_s**2/2 + lam*cos(phi)"""
 
     parameters = ('K',)
+    places = False
+    hardens = False
+    yields = False
 
     @staticmethod
-    def energy(p: Array, phi: Array, lam: float, K: Value) -> Value:
-        return (1/2)*K*p**2 + lam*cos(phi)
+    def energy(phi_s: Array, phi: Array, lam: float, K: Value) -> Value:
+        return (1/2)*K*phi_s**2 + lam*cos(phi)
 
     @staticmethod
-    def moments(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
-        return K*p, -lam*sin(phi)
+    def moments(phi_s: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return K*phi_s, -lam*sin(phi)
 
     @staticmethod
-    def stiffness(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value, Value]:
+    def stiffness(phi_s: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value, Value]:
         return K, 0.0, -lam*cos(phi)
 
     @staticmethod
-    def moments_lam(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+    def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
         return 0.0, -sin(phi)
 
     @staticmethod
-    def moments_K(p: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
-        return p, 0.0
+    def reach(phi_s: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return sin(phi), cos(phi)
+
+    @staticmethod
+    def yielding(phi_s: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value, Value]:
+        return 0.0, 0.0, 0.0
+
+    @staticmethod
+    def moments_K(phi_s: Array, phi: Array, lam: float, K: Value) -> tuple[Value, Value]:
+        return phi_s, 0.0
 
 
 class limit_of_bending_with_rest_and_end_load:
-    """W = K*(p - u_hat)**2/2 + lam*cos(phi)"""
+    """W = K*(phi_s - u_hat)**2/2 + lam*cos(phi)"""
 
     parameters = ('K', 'u_hat')
+    places = False
+    hardens = False
+    yields = False
 
     @staticmethod
-    def energy(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> Value:
-        return (1/2)*K*(p - u_hat)**2 + lam*cos(phi)
+    def energy(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> Value:
+        return (1/2)*K*(phi_s - u_hat)**2 + lam*cos(phi)
 
     @staticmethod
-    def moments(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
-        return K*(p - u_hat), -lam*sin(phi)
+    def moments(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return K*(phi_s - u_hat), -lam*sin(phi)
 
     @staticmethod
-    def stiffness(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value, Value]:
+    def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value, Value]:
         return K, 0.0, -lam*cos(phi)
 
     @staticmethod
-    def moments_lam(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+    def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
         return 0.0, -sin(phi)
 
     @staticmethod
-    def moments_K(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
-        return p - u_hat, 0.0
+    def reach(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return sin(phi), cos(phi)
 
     @staticmethod
-    def moments_u_hat(p: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+    def yielding(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value, Value]:
+        return 0.0, 0.0, 0.0
+
+    @staticmethod
+    def moments_K(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
+        return phi_s - u_hat, 0.0
+
+    @staticmethod
+    def moments_u_hat(phi_s: Array, phi: Array, lam: float, K: Value, u_hat: Value) -> tuple[Value, Value]:
         return -K, 0.0
 
 

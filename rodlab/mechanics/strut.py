@@ -9,12 +9,13 @@ Cost of every method: O(n), but for the Hessian with a term quadratic in the pla
 
 from collections.abc import Callable, Sequence
 from copy import copy
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodlab.mechanics import bounds
+from rodlab.mechanics import bounds, strut_ends
 from rodlab.mechanics import joints as joints_of
 from rodlab.mechanics.assembly import balance, difference_form, full
 from rodlab.mechanics.joints import Joints
@@ -114,11 +115,15 @@ class Strut:
         self.terms = checked(terms)
         self.springs = Springs(joints.k)
         self._bend(curved=joints.curved)
+        self.x0 = 0.0  # of the foot
         self.parameters: dict[str, Any] = {"k": joints.k, "beta": joints.beta, "h": joints.h, "w": joints.w}
+        self.at_foot: dict[str, float] = {}
         for term in self.terms:
             for name, given in term.parameters.items():
                 profile = Profile(name, given, tuple(breaks))
                 self.parameters[name] = profile.at(joints.s) if profile.constant is None else profile.constant
+                if profile.constant is None:
+                    self.at_foot[name] = float(profile.at(np.zeros(1))[0] if profile.values is None else profile.values[0])
         if any(term.energy is not None for term in self.terms):
             self.kernel()  # what a term of one's own lacks is said at once
 
@@ -135,9 +140,22 @@ class Strut:
         if joints.k is not self.joints.k:
             other.springs = Springs(joints.k)
         other._bend(curved=True)
-        for name in ("places", "_with_load", "_without_load", "carried", "symmetries"):
-            other.__dict__.pop(name, None)
-        return other
+        return other._renewed("_with_load", "_without_load")
+
+    def under(self, **values: float) -> "Strut":
+        """The same with these boundary values: phi0 and x0 of the foot, N1 and tau on the end."""
+        other = copy(self)
+        other.x0 = values.pop("x0", self.x0)
+        if "phi0" in values:
+            other.joints = replace(self.joints, phi0=values.pop("phi0"))
+        other.parameters = {**self.parameters, **values}
+        return other._renewed()
+
+    def _renewed(self, *more: str) -> "Strut":
+        """Itself without what was computed for other joints and parameters."""
+        for name in ("places", "carried", "symmetries", *more):
+            self.__dict__.pop(name, None)
+        return self
 
     def __repr__(self) -> str:
         return f"Strut({said_of(self.arguments, self.n, self.terms)})"
@@ -165,10 +183,9 @@ class Strut:
         """V(phi; lam): a float, or complex for complex angles. `ValueError` unless phi (n,) and lam are finite."""
         phi, lam = self._state(phi, lam)
         link, below = self.kernel(lam), self.below(phi)
-        places = self.places.of(phi) if link.places else ()
+        places = self.places.of(phi, self.x0) if link.places else ()
         e = link.energy(below, phi, *places, lam, **self.given(link))
-        clamp = lam * self.joints.h * (1 - self.joints.last_weight) * np.cos(self.joints.phi0) if lam else 0.0
-        V = np.sum(e) + clamp
+        V = np.sum(e) + strut_ends.foot(self, lam).energy
         return complex(V) if np.iscomplexobj(V) else float(V)
 
     def gradient(self, phi: Any, lam: float) -> Array:
@@ -198,7 +215,7 @@ class Strut:
         m, f = link.moments(self.below(u), u, lam, **given)
         g = balance(m, f, u)
         if link.places:
-            g += self.places.moments(u, *link.forces(*self.places.of(u), **given))
+            g += self.places.moments(u, *link.forces(*self.places.of(u, self.x0), **given))
         return g
 
     def jacobian(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Full:
@@ -210,7 +227,7 @@ class Strut:
         if np.ndim(c_below) or c_below:
             c[:-1] += full(c_below, self.n)[1:]
         if link.places:
-            forces = link.forces(*self.places.of(u), **given)
+            forces = link.forces(*self.places.of(u, self.x0), **given)
             c += self.places.softening(u, *forces)
             spread = 2 * self.n * EPS * float(self.places.size(*forces).max())  # of their cumulative sums
         local = difference_form(self.springs if k is self.joints.k else full(k, self.n), c, spread)
@@ -218,7 +235,7 @@ class Strut:
             return local
         if self.n > FULL_LIMIT:
             raise ValueError(f"n must be at most {FULL_LIMIT} where a term couples all angles (a foundation); it is {self.n}")
-        x, z = self.places.of(u)
+        x, z = self.places.of(u, self.x0)
         return Full(local.toarray() + self.places.hardening(u, *link.hardening(x, z, **given)))
 
     def second_variation(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Full:
@@ -242,7 +259,7 @@ class Strut:
         """Name -> function of (u, lam): what a point can be asked for."""
         return {
             "tip_angle": lambda u, _: float(u[-1]),
-            "height": lambda u, _: self.height(u),
+            "height": lambda u, lam: self.boundary("lam", u, lam),
             "energy": self.energy,
         }
 
@@ -262,7 +279,21 @@ class Strut:
     def carried(self) -> Array | None:
         """Bound on the moments of the dead forces of terms, shape (n,); None where no term uses the place."""
         link, zero = self.kernel(), np.zeros(self.n)
-        return self.places.size(*link.forces(zero, zero, **self.given(link))) if link.places else None
+        return self.places.size(*link.forces(zero, zero, **self.given(link))) if link.places and not link.hardens else None
+
+    # --- what is given at its ends, and what that brings about: see `rodlab.mechanics.strut_ends` -----------------------
+
+    def boundary(self, name: str, u: Array, lam: float) -> float:
+        """dV/d(name) of a boundary value: lam, N1, tau, phi0 or x0."""
+        return strut_ends.boundary(self, name, u, lam)
+
+    def column(self, name: str, u: Array, lam: float) -> Array:
+        """d(gradient)/d(name) of a boundary value, shape (n,)."""
+        return strut_ends.column(self, name, u, lam)
+
+    def second(self, one: str, other: str, u: Array, lam: float) -> float:
+        """d2V/d(one) d(other) of two boundary values."""
+        return strut_ends.second(self, one, other, u, lam)
 
     # --- shape --------------------------------------------------------------------------------------------------
 
@@ -293,6 +324,11 @@ class Strut:
         """x, z of the n + 1 joints from the clamp (0, 0) to the tip."""
         x, z = self.places.of(vector("phi", phi, self.n))
         return np.append(0.0, x), np.append(0.0, z)
+
+    def shape_at(self, u: Array, lam: float) -> tuple[Array, Array, Array, Array]:
+        """s, phi and x, z of the n + 1 joints under a load, by which they may be sheared and extended."""
+        x, z = strut_ends.reach(self, u, lam)
+        return *self.nodes(u), np.append(self.x0, x), np.append(0.0, z)
 
     def nodes(self, phi: Array) -> tuple[Array, Array]:
         """s and phi of the n + 1 joints, the clamp first."""

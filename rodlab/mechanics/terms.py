@@ -10,6 +10,7 @@ A term of your own is a function of a link (`rodlab.mechanics.link`) that return
 """
 
 import keyword
+import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -17,7 +18,18 @@ from typing import Any
 
 import numpy as np
 
+from rodlab.mechanics.expression import Expression
 from rodlab.numerics.arrays import number
+
+
+@dataclass(frozen=True)
+class Potential:
+    """The energy of a link in a potential of the place; equal for equal texts, so that it is derived once."""
+
+    U: str
+
+    def __call__(self, link: Any) -> Any:
+        return link.h * link.w * Expression(self.U, ("x", "z")).of(x=link.x, z=link.z)
 
 
 @dataclass(frozen=True)
@@ -31,13 +43,24 @@ class Term:
     parameters: Mapping[str, Any] = field(default_factory=dict)
     energy: Callable[[Any], Any] | None = None
 
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """What the term was made of: its parameters, or the text of its potential."""
+        return {"U": self.energy.U} if isinstance(self.energy, Potential) else dict(self.parameters)
+
+    @property
+    def own(self) -> bool:
+        """True where the energy is a function that no file could hold."""
+        return self.energy is not None and not isinstance(self.energy, Potential)
+
     def __repr__(self) -> str:
-        return f"{self.name}({', '.join(f'{k}={v!r}' for k, v in self.parameters.items())})"
+        return f"{self.name}({', '.join(f'{k}={v!r}' for k, v in self.arguments.items())})"
 
 
 BENDING = Term("bending")
 BENDING_WITH_REST = Term("bending_with_rest")
 END_LOAD = Term("end_load")
+END_FORCE = Term("end_force", {"N1": 0.0})
 
 
 def self_weight(q: Any) -> Term:
@@ -69,6 +92,48 @@ def end_torque(tau: float) -> Term:
     return Term("end_torque", {"tau": number("tau", tau)})
 
 
+def end_force(N1: float) -> Term:
+    """A dead force N1 along x on the free end, beside the load that presses down: energy -N1 x(1).
+
+    >>> end_force(-0.1)
+    end_force(N1=-0.1)
+    """
+    return Term("end_force", {"N1": number("N1", N1)})
+
+
+def shearable(A1: float = math.inf, A3: float = math.inf, *, shear: Any = None, extension: Any = None) -> Term:
+    """A rod that shears and extends: stiffnesses A1 across and A3 along it, infinite where it does not [N 2.8, exercise].
+
+    Or their inverses, `shear` = 1 / A1 and `extension` = 1 / A3, which may be functions of s. The strains are eliminated: each is
+    that of the forces of the dead end loads, so that no other load may act on the rod's length.
+
+    >>> shearable(A3=50.0)
+    shearable(shear=0.0, extension=0.02)
+    """
+    given = {"shear": shear, "extension": extension}
+    for name, own, stiffness in (("A1", "shear", A1), ("A3", "extension", A3)):
+        if given[own] is None:
+            if not (np.ndim(stiffness) == 0 and stiffness > 0):
+                raise ValueError(f"{name} must be positive, or infinite; it is {stiffness!r}")
+            given[own] = 1 / float(stiffness)
+    return Term("shearable", given)
+
+
+def potential(U: str) -> Term:
+    """A potential of the place, U a length of the rod: an expression in x and z as a string, such as "z**2" or "exp(-x)*z".
+
+    >>> potential("sin(z)")
+    potential(U='sin(z)')
+    """
+    if not isinstance(U, str):
+        raise ValueError(f"U must be an expression in x and z as a string; it is {U!r:.60}")
+    try:
+        Expression(U, ("x", "z"))
+    except ValueError as error:
+        raise ValueError(f"U: {error}") from None
+    return Term("potential", {}, Potential(U))
+
+
 def term(energy: Callable[[Any], Any], **parameters: Any) -> Term:
     """A term of your own: `energy(link)` returns the SymPy energy of one link, with its parameters by name.
 
@@ -86,13 +151,15 @@ def term(energy: Callable[[Any], Any], **parameters: Any) -> Term:
 def checked(terms: Any) -> tuple[Term, ...]:
     """The terms as a tuple, or one sentence about the first that is none or whose parameters are taken."""
     given: tuple[Any, ...] = tuple(terms) if isinstance(terms, (tuple, list)) else (terms,)
-    taken: dict[str, str] = dict.fromkeys(("a", "b", "x", "z", "lam", "k", "beta", "h", "w"), "the strut")
+    taken: dict[str, str] = dict.fromkeys(("a", "b", "x", "z", "lam", "k", "beta", "h", "w", "phi", "phi_s"), "the model")
     for term in given:
         if not isinstance(term, Term):
-            raise ValueError(f"terms must be made by self_weight, foundation, end_torque or term; one is {term!r}")
+            raise ValueError(f"terms must be made by self_weight, foundation, end_torque, end_force, shearable, potential or term; one is {term!r}")
         for name in term.parameters:
             if name.startswith("_") or keyword.iskeyword(name) or hasattr(np, name) or re.fullmatch(r"t\d+", name):
                 raise ValueError(f"the parameter {name} of {term.name} must have a name that numpy and the kernel do not use")
+            if name == "N1" and term.name != "end_force":
+                raise ValueError(f"the parameter N1 of {term.name} is the dead force on the end; give end_force(N1) as well, and use it")
             if name in taken:
                 raise ValueError(f"the parameter {name} of {term.name} is already that of {taken[name]}; give each once")
             taken[name] = term.name

@@ -116,7 +116,7 @@ class VariedRod:
         """d(gradient)/d(value), shape (N m,)."""
         rod = self.sharing(value)
         if self.name == "phi0":
-            return _first_column(rod, u, self.lam)
+            return rod.column("phi0", u, self.lam)
         return rod.by(self.name, u, self.lam, self._unit(rod))
 
     def inner(self, u: Array, v: Array) -> float:
@@ -199,16 +199,3 @@ def _scaled(profile: Profile, value: float, *, scalar: bool) -> Profile:
     assert function is not None
     other.function = lambda s: value * function(s)
     return other
-
-
-def _first_column(rod: "Rod", u: Array, lam: float) -> Array:
-    """How the gradient changes with the angle of the clamp."""
-    W, grid = rod.kernel(lam), rod.grid
-    angle, slope = rod.at_gauss(u)
-    k, mixed, soft = W.stiffness(slope, angle, lam, **rod.given(W))
-    b, h, E, D = grid.b, grid.h[0], grid.E, grid.D
-    k, mixed, soft = (np.broadcast_to(part, angle.shape)[0] for part in (k, mixed, soft))
-    column = (b * k / h * D[:, 0]) @ D + (b * mixed * D[:, 0]) @ E + (b * mixed * E[:, 0]) @ D + (h * b * soft * E[:, 0]) @ E
-    out = np.zeros(u.size)
-    out[: grid.degree] = column[1:]
-    return out

@@ -83,6 +83,7 @@ class Collocated(Symmetric):
 
     def __init__(self, blocks: Array, places: Layout | None = None) -> None:
         N, m = blocks.shape[0], blocks.shape[1] - 1
+        self.foot = float(blocks[0, 0, 0])  # what belongs to the clamped node, for a rod whose foot turns
         blocks[:-1, m, m] += blocks[1:, 0, 0]
         blocks[:, 0, 0] = 0.0  # a shared corner is kept once
         self.blocks, self.N, self.m = blocks, N, m

@@ -44,6 +44,11 @@ class Grid:
         self.hb = self.h[:, None] * self.b
         self.slope = np.ascontiguousarray(self.D[:, 1:].T)  # of differences to the first node: constants have none
 
+    @cached_property
+    def A(self) -> Any:
+        """The Runge-Kutta matrix of Gauss's method."""
+        return self.basis.wide_A if self.kind is np.longdouble else self.basis.A
+
     @property
     def N(self) -> int:
         """Number of intervals."""

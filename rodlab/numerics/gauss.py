@@ -67,9 +67,14 @@ class Basis:
         return _double(_integrated(self.wide_c, self.wide_nodes, self.wide_c, self.wide_b))
 
     @cached_property
+    def wide_A(self) -> Wide:
+        """The Runge-Kutta matrix of Gauss's method, in the longest float."""
+        return _integrated(self.wide_c, self.wide_c, self.wide_c, self.wide_b)
+
+    @cached_property
     def A(self) -> Array:
         """The Runge-Kutta matrix of Gauss's method."""
-        return _double(_integrated(self.wide_c, self.wide_c, self.wide_c, self.wide_b))
+        return _double(self.wide_A)
 
     def at(self, x: Any) -> tuple[Array, Array]:
         """Matrices that take nodal values to values and derivatives at x, shape (len(x), m+1)."""

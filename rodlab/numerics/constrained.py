@@ -1,0 +1,169 @@
+"""A symmetric matrix with a border: unknowns that stand alone, and multipliers of constraints.
+
+    [ D   B^T ] [p]       p (m,)   multipliers first, c of them, then other unknowns of their own
+    [ B   A   ] [y]       y (n,)   A banded or full, known by its own factor
+
+Second variation of V(y; p), stationary in all: where p_j is a multiplier its row says B_j . y = 0, and the index of V on the y that
+obey it is that of the whole matrix less c [Haynsworth 1968; Maddocks 1987: constrained quadratic forms]:
+
+    index = index(A) + index(D - B^T A^{-1} B) - c
+"""
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.bordered import Bordered
+from rodlab.numerics.factor import factor, inertia_of, shifted
+from rodlab.numerics.inertia import Inertia, Symmetric
+from rodlab.numerics.nullspace import quadratic
+
+NUDGES = (1.0, 8.0, 64.0, 512.0)  # shifts tried where A itself is singular to within rounding
+CLEAR = 64 * EPS  # of the parts of the small matrix
+
+
+class Constrained(Symmetric):
+    """The matrix above, in the order (p, y); `constraints` is c, and the index that of the constrained form.
+
+    >>> A = Constrained(np.diag([1.0, -1.0]), np.array([[0.0], [1.0]]), np.zeros((1, 1)), constraints=1)       # y_2 = 0
+    >>> A.index, A.solve(np.array([2.0, 3.0, 0.0]))
+    (0, array([2., 3., 2.]))
+    """
+
+    def __init__(self, matrix: Any, border: Array, corner: Array, constraints: int) -> None:
+        self.matrix, self.border, self.corner, self.constraints = matrix, border, corner, constraints
+
+    @property
+    def width(self) -> int:
+        """m."""
+        return self.corner.shape[0]
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(m + n, m + n)."""
+        size = sum(self.border.shape)
+        return (size, size)
+
+    @property
+    def diagonal(self) -> Array:
+        """Diagonal entries."""
+        own = np.diagonal(self.matrix) if isinstance(self.matrix, np.ndarray) else self.matrix.diagonal
+        return np.append(np.diagonal(self.corner), own)
+
+    def toarray(self) -> Array:
+        """The dense matrix."""
+        A = self.matrix if isinstance(self.matrix, np.ndarray) else self.matrix.toarray()
+        return np.block([[self.corner, self.border.T], [self.border, A]])
+
+    def __matmul__(self, x: Array) -> Array:
+        p, y = x[: self.width], x[self.width :]
+        return np.append(self.corner @ p + self.border.T @ y, self.matrix @ y + self.border @ p)
+
+    def __abs__(self) -> "Constrained":
+        return Constrained(abs(self.matrix), np.abs(self.border), np.abs(self.corner), self.constraints)
+
+    def quadratic(self, x: Array) -> tuple[float, float]:
+        """x . A x and a bound on its rounding."""
+        p, y = x[: self.width], x[self.width :]
+        value, rounding = quadratic(self.matrix, y)
+        rest = 2 * float(p @ (self.border.T @ y)) + float(p @ self.corner @ p)
+        size = 2 * float(np.abs(p) @ (np.abs(self.border).T @ np.abs(y))) + float(np.abs(p) @ np.abs(self.corner) @ np.abs(p))
+        return value + rest, rounding + 4 * EPS * size
+
+    def shifted(self, mu: Any) -> "Constrained":
+        """A + mu, or A + diag(mu) with one entry for each y; the border as it is."""
+        return Constrained(shifted(self.matrix, mu), self.border, self.corner, self.constraints)
+
+    # --- solving -------------------------------------------------------------------------------------------------
+
+    def factor(self) -> "ConstrainedFactor":
+        """A factor for many right-hand sides: that of A, and the border around it."""
+        return ConstrainedFactor(self)
+
+    def solve(self, b: Array) -> Array:
+        """(p, y) with the matrix times it equal to b, refined once."""
+        return self.factor().solve(b)
+
+    # --- index ---------------------------------------------------------------------------------------------------
+
+    def inertia(self, slack: Array | float = 0.0) -> Inertia:
+        """Signs of the eigenvalues on the constrained y, of every A within diag(slack), and rounding, of this one."""
+        total = self.shape[0] - 2 * self.constraints
+        low, high = self._negative(slack, 1)[0], self._negative(slack, -1)[1]
+        low, high = min(max(low, 0), total), min(max(high, low, 0), total)
+        return Inertia(low, high - low, total - high)
+
+    def index_within(self, slack: Array | float) -> int | None:
+        """The index that all within a slack share; None where they do not, or may not."""
+        known = self.inertia(slack)
+        return known.negative if known.verified else None
+
+    def _negative(self, slack: Array | float, side: int) -> tuple[int, int]:
+        """Least and most negative eigenvalues with A raised (side 1) or lowered (-1) by the slack and as far as A needs to be clear."""
+        small = EPS * float(np.abs(self._size).max())
+        for nudge in NUDGES:
+            moved = self.matrix if not (np.any(slack) or nudge > 1) else shifted(self.matrix, side * (slack + (nudge - 1) * small))
+            known = inertia_of(moved)
+            assert known is not None
+            if known.verified:
+                break
+        low, high = self._small(moved)
+        return known.negative + low - self.constraints, known.negative + known.unclear + high - self.constraints
+
+    def _small(self, moved: Any) -> tuple[int, int]:
+        """Least and most negative eigenvalues of D - B^T A^{-1} B."""
+        with np.errstate(all="ignore"):
+            known = factor(moved)
+            X = np.column_stack([_refined(moved, known, b) for b in self.border.T])
+            left = self.border - np.column_stack([moved @ x for x in X.T])
+            S = self.corner - self.border.T @ X
+            lost = np.abs(X).T @ np.abs(left) + CLEAR * (np.abs(self.corner) + np.abs(self.border).T @ np.abs(X))
+        if not (np.isfinite(S).all() and np.isfinite(lost).all()):
+            return 0, self.width
+        scale = np.sqrt(np.maximum(np.abs(np.diagonal(S)), np.finfo(float).tiny))  # entries of any size: forces beside angles
+        w = np.linalg.eigvalsh((S + S.T) / 2 / np.outer(scale, scale))
+        off = float((lost / np.outer(scale, scale)).sum(axis=1).max()) + CLEAR * self.width
+        return int((w < -off).sum()), int((w <= off).sum())
+
+    @cached_property
+    def _size(self) -> Array:
+        return np.asarray(self.diagonal[self.width :])
+
+
+class ConstrainedFactor:
+    """The factor of A, and block elimination of the border that is stable where A is singular."""
+
+    def __init__(self, matrix: Constrained) -> None:
+        self.matrix = matrix
+        A = matrix.matrix
+        self._bordered = Bordered(A, factor(A), B=matrix.border, C=matrix.border, D=matrix.corner)
+
+    def solve(self, b: Array, /) -> Array:
+        """(p, y), refined once."""
+        m = self.matrix.width
+        x = np.zeros_like(b)
+        for _ in range(2):
+            left = b - self.matrix @ x
+            y, p = self._bordered.solve_once(left[m:], left[:m])
+            x = x + np.append(p, y)
+        return x
+
+    def solve_transposed(self, b: Array, /) -> Array:
+        """The same: the matrix is symmetric."""
+        return self.solve(b)
+
+    def sign(self) -> int:
+        """Sign of the determinant; 0 where it is singular to working precision."""
+        known = self.matrix.inertia()
+        return 0 if known.unclear else (-1) ** (known.negative + self.matrix.constraints)
+
+    def inertia(self) -> Inertia:
+        """Signs of the eigenvalues of the constrained form."""
+        return self.matrix.inertia()
+
+
+def _refined(matrix: Any, known: Any, b: Array) -> Array:
+    x = known.solve(b)
+    return np.asarray(x + known.solve(b - matrix @ x))
