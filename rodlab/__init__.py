@@ -41,9 +41,11 @@ if TYPE_CHECKING:
     from rodlab.mechanics.conjugate import conjugate_points
     from rodlab.mechanics.convexity import uniqueness
     from rodlab.mechanics.elastica import Elastica, elastica
+    from rodlab.mechanics.indices import Indices, indices
     from rodlab.mechanics.invariants import Invariants, invariants
     from rodlab.mechanics.koiter import Koiter, koiter
     from rodlab.mechanics.rod import Rod
+    from rodlab.mechanics.shear import ShearableRod, shear_loads, shearable_principle
     from rodlab.mechanics.strut import Strut
     from rodlab.mechanics.terms import Term, end_force, end_torque, foundation, potential, self_weight, shearable, term
     from rodlab.numerics.bordered import Bordered
@@ -62,6 +64,7 @@ _HOME = {
     "Event": "analysis.events",
     "Expansion": "analysis.expansion",
     "Imperfection": "analysis.imperfection",
+    "Indices": "mechanics.indices",
     "Invariants": "mechanics.invariants",
     "Koiter": "mechanics.koiter",
     "Newton": "analysis.newton",
@@ -69,6 +72,7 @@ _HOME = {
     "Point": "analysis.point",
     "Rod": "mechanics.rod",
     "Shape": "analysis.point",
+    "ShearableRod": "mechanics.shear",
     "Strut": "mechanics.strut",
     "Study": "lab.studies.study",
     "Term": "mechanics.terms",
@@ -95,12 +99,15 @@ _HOME = {
     "follow": "analysis.follow",
     "foundation": "mechanics.terms",
     "imperfection": "analysis.imperfection",
+    "indices": "mechanics.indices",
     "invariants": "mechanics.invariants",
     "koiter": "mechanics.koiter",
     "potential": "mechanics.terms",
     "read": "lab.saved",
     "self_weight": "mechanics.terms",
+    "shear_loads": "mechanics.shear",
     "shearable": "mechanics.terms",
+    "shearable_principle": "mechanics.shear",
     "steepest_descent": "analysis.downhill",
     "study": "lab.studies.study",
     "switch": "analysis.switching",
@@ -111,11 +118,11 @@ _HOME = {
 
 __all__ = [  # the same names; a test compares
     "Bordered", "Branch", "Buckling", "Diagram", "Distinguished", "Elastica", "Equations", "Equilibria", "Event",
-    "Expansion", "Imperfection", "Invariants", "Koiter", "Newton", "NoConvergence", "Point", "Rod", "Shape", "Strut",
+    "Expansion", "Imperfection", "Indices", "Invariants", "Koiter", "Newton", "NoConvergence", "Point", "Rod", "Shape", "ShearableRod", "Strut",
     "Study", "Term", "Tridiagonal", "all_equilibria", "branch", "branch_point", "branch_points", "buckling", "buckling_loads",
     "census", "conjugate_points", "deflation", "diagram", "distinguished", "elastica", "end_force", "end_torque", "equilibrium",
-    "expansion", "factor", "fold", "folds", "follow", "foundation", "imperfection", "invariants", "koiter",
-    "potential", "read", "self_weight", "shearable", "steepest_descent", "study", "switch", "term", "uniqueness", "vary",
+    "expansion", "factor", "fold", "folds", "follow", "foundation", "imperfection", "indices", "invariants", "koiter",
+    "potential", "read", "self_weight", "shear_loads", "shearable", "shearable_principle", "steepest_descent", "study", "switch", "term", "uniqueness", "vary",
 ]  # fmt: skip
 
 

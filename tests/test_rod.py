@@ -437,7 +437,7 @@ def test_bare_steps_promise_nothing():
         ({"u_hat": np.nan}, "u_hat must be"), ({"phi0": "x"}, "phi0 must be"), ({"breaks": (0.0,)}, "breaks must lie"),
         ({"breaks": "x"}, "breaks must be"), ({"degree": 0}, "degree must be"), ({"degree": 99}, "degree must be"),
         ({"mesh": 0}, "mesh must be"), ({"mesh": [0, 0.5]}, "mesh must be"), ({"mesh": [0, 0.5, 0.4, 1]}, "mesh must be"),
-        ({"tol": 0.0}, "tol must be"), ({"terms": (3,)}, "terms must be"), ({"ends": ("free", "free")}, "ends must be"),
+        ({"tol": 0.0}, "tol must be"), ({"terms": (3,)}, "terms must be"), ({"ends": ("free", "welded")}, "ends must be"),
         ({"K": lambda s: 1 / (s - 0.5)}, "K must be"), ({"mesh": "x"}, "mesh must be"),
     ],
 )  # fmt: skip

@@ -115,8 +115,11 @@ def downhill(model: Equations, lam: float, u: Array, run: Newton) -> Solution:
 
 
 def has_energy(model: Equations) -> bool:
-    """True when the model tells the energy of which its residual is the gradient."""
-    return "energy" in getattr(model, "measures", {})
+    """True when the model tells the energy of which its residual is the gradient, and nothing but that is asked of it.
+
+    Multipliers of constraints are no unknowns to go downhill in.
+    """
+    return "energy" in getattr(model, "measures", {}) and not hasattr(model, "constraints")
 
 
 def _downward(H: Any, g: Array, mu: float) -> tuple[Array | None, float]:

@@ -13,8 +13,10 @@ Four methods suffice. What more a model knows it tells by further members, each 
     seen              what of du the bounds of `lipschitz` are in
     adapted           (u, lam, tangent) -> the same problem on a better mesh with u and tangent on it, None where its own serves;
                       with `moved`, `suited`, `mesh`, `on_points`: each point of a branch carries its own equations
+    observed          which unknown a point's error is of, the last if not
     error, inertia    of a point, where meshes are compared for them; `missed`: what a mesh misses of v.F and v.Jv
     between           phi, x, z at any s
+    constraints       how many of the unknowns are multipliers: such a model is not solved downhill
     recipe            plain data that make it again             a saved branch can be read with its model
     symmetries        maps u -> u that take solutions to such   a diagram recognises images
     vary              (name, lam) -> the same model             another parameter in the load's place

@@ -188,6 +188,8 @@ class Point:
     def error(self) -> float:
         """Estimate from above of the error of the tip angle (the last unknown), against the exact solution.
 
+        Where the tip's angle is held, of the largest angle; a model says by `observed` which of its unknowns that is.
+
         Sum of what Newton left, of rounding of u, and of the residual and the bound on its rounding, carried to the tip
         by the adjoint v = J^{-T} e_n: of first order in these. Without the member `rounding` that bound is an
         estimate: eps |J| |u|, and how far from linear the residual is over a few units of rounding. Infinite where the index
@@ -197,8 +199,10 @@ class Point:
         own = getattr(self.equations, "error", None)
         if own is not None:
             return float(own(self.u, self.lam)) if self.index_verified else np.inf
+        of = getattr(self.equations, "observed", None)
+        which = -1 if of is None else int(of(self.u))
         unit = np.zeros_like(self.u)
-        unit[-1] = 1.0
+        unit[which] = 1.0
         J, F = jacobian(self.equations, self.u, self.lam), np.asarray(self.equations.residual(self.u, self.lam))
         with np.errstate(all="ignore"):
             try:
@@ -212,7 +216,7 @@ class Point:
             rounding += 2 * abs(float(v @ F))  # what the residual still asks for, doubled for what is not linear
             if self.u.any():
                 rounding += 4 * LEAST * (1 + float(np.abs(v).sum()))  # below TINY rounding is no longer relative
-        total = self.remaining + EPS * abs(float(self.u[-1])) + (rounding if np.isfinite(rounding) else np.inf)
+        total = self.remaining + EPS * abs(float(self.u[which])) + (rounding if np.isfinite(rounding) else np.inf)
         return total if total == 0 or self.inertia is None or self.inertia.verified else np.inf
 
     @cached_property

@@ -10,11 +10,12 @@ from rodlab.analysis.equations import Equations, jacobian, started
 from rodlab.numerics.arrays import Array, number
 
 
-def vary(model: Any, name: str, lam: float) -> Any:
+def vary(model: Any, name: str, lam: float | None = None) -> Any:
     """The same model at the load lam, with its parameter `name` in the place of the load.
 
     A strut has K, u_hat, phi0 (or k, beta, beta0) and the parameters of its terms. A number is followed itself, a profile
-    by its amplitude, 1 being as given. Any other model needs the parameter as an attribute that is a number; its
+    by its amplitude, 1 being as given. So are the angle phi1 and the place offset that a held top has, and the "shortening", how far
+    the end is pressed down, whose reaction the load then is (no lam is given). Any other model needs the parameter as an attribute that is a number; its
     derivative is then taken by differences. `varied.at(value)` is the model with that value.
     Raises `ValueError` for a name that the model does not have.
 
@@ -27,7 +28,7 @@ def vary(model: Any, name: str, lam: float) -> Any:
     0.777155
     """
     own = getattr(model, "vary", None)
-    return own(name, lam) if own is not None else Varied(model, name, lam)
+    return own(name, lam) if own is not None else Varied(model, name, number("lam", lam))
 
 
 class Family:

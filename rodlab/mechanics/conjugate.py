@@ -15,7 +15,8 @@ from rodlab.mechanics.rod import Rod
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array
 from rodlab.numerics.collocated import Collocated
-from rodlab.numerics.full import Full
+from rodlab.numerics.difference import DifferenceForm
+from rodlab.numerics.tridiagonal import Tridiagonal
 
 
 def conjugate_points(p: Any) -> Array:
@@ -29,9 +30,9 @@ def conjugate_points(p: Any) -> Array:
     array([0.139639, 0.713214])
     """
     model, matrix = p.equations, None
-    if isinstance(model, (Strut, Rod)):
+    if isinstance(model, (Strut, Rod)) and not hasattr(model, "unknowns"):
         matrix = model.hessian(p.u, p.lam)
-    if matrix is None or isinstance(matrix, Full):
+    if not isinstance(matrix, (DifferenceForm, Tridiagonal, Collocated)):
         raise ValueError(
             f"p must be an equilibrium of a strut or rod whose second variation is local; its model is {model!r:.60}"
         )

@@ -61,12 +61,9 @@ class Expression:
         with np.errstate(all="ignore"):
             return np.asarray(self._value({**FUNCTIONS, "s": s}) + np.zeros_like(s), dtype=np.float64)
 
-    def of(self, **symbols: Any) -> Any:
-        """The same as a SymPy expression in symbols, decimals taken for the fractions they are."""
-        import sympy
-
-        functions = {name: getattr(sympy, name) for name in FUNCTIONS}
-        return sympy.nsimplify(self._value({**functions, **symbols}), rational=True)
+    def of(self, **names: Any) -> Any:
+        """The value for these values of the variables, by these functions: with SymPy's, a SymPy expression."""
+        return self._value(names)
 
     def __repr__(self) -> str:
         return f"Expression({self.text!r})"

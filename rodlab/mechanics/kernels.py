@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any, Protocol
 
-from rodlab.mechanics.standard import DENSITIES, KERNELS
+from rodlab.mechanics import standard
 from rodlab.mechanics.terms import Term
 from rodlab.numerics.arrays import Array
 
@@ -31,20 +31,30 @@ class Kernel(Protocol):
 
 def kernel(terms: Sequence[Term], *, weighted: bool) -> Kernel:
     """The kernel of a sum of terms; SymPy is imported only when it is not among the shipped ones."""
-    name = "_and_".join(term.name for term in terms)
-    if all(term.energy is None for term in terms):
-        shipped: Kernel | None = KERNELS.get(name + "_weighted" if weighted else name)
-        if shipped is not None:
-            return shipped
+    shipped: Kernel | None = _shipped("KERNELS", terms, "_weighted" if weighted else "")
+    if shipped is not None:
+        return shipped
     return _derived(tuple((term.name, tuple(term.parameters), term.energy) for term in terms), weighted)
 
 
 def density(terms: Sequence[Term]) -> Any:
     """The kernel of the limit of a sum of terms: functions of phi', phi, the load and the parameters, of any one shape."""
-    shipped = DENSITIES.get("limit_of_" + "_and_".join(term.name for term in terms))
-    if shipped is not None and all(term.energy is None for term in terms):
+    shipped = _shipped("DENSITIES", terms)
+    if shipped is not None:
         return shipped
     return _derived_limit(tuple((term.name, tuple(term.parameters), term.energy) for term in terms))
+
+
+def _shipped(table: str, terms: Sequence[Term], suffix: str = "") -> Any:
+    """The kernel in the shipped tables, the second of which is read only where the first has none; None where neither has."""
+    if any(term.energy is not None for term in terms):
+        return None
+    name = ("limit_of_" if table == "DENSITIES" else "") + "_and_".join(term.name for term in terms) + suffix
+    if name in getattr(standard, table):
+        return getattr(standard, table)[name]
+    from rodlab.mechanics import standard_loads
+
+    return getattr(standard_loads, table).get(name)
 
 
 Recipe = tuple[tuple[str, tuple[str, ...], Any], ...]

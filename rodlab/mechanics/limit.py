@@ -213,7 +213,12 @@ def limit(terms: Sequence[Term]) -> Limit:
     shortened = {link.a: phi - h * p, link.b: phi, link.k: K / h, link.beta: u_hat * h}
     reach, yielding = reach_of(terms, link)
     per_length = [
-        sympy.Add(*(sympy.limit(part, h, 0, "+") for part in sympy.Add.make_args(sympy.expand(e.subs(shortened, simultaneous=True) / h))))
+        sympy.Add(
+            *(
+                sympy.limit(part, h, 0, "+")
+                for part in sympy.Add.make_args(sympy.expand(e.subs(shortened, simultaneous=True) / h))
+            )
+        )
         for e in (energy_of(terms, link), *reach, *yielding)
     ]
     if any(e.has(sympy.oo, -sympy.oo, sympy.nan, sympy.zoo) or e.has(h) for e in per_length):

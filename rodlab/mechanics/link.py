@@ -10,7 +10,10 @@ Every other name is a parameter of the term that uses it. V is the sum over the 
 
 from dataclasses import dataclass
 
+import sympy
 from sympy import Expr, Integer, Symbol, cos, sin
+
+from rodlab.mechanics.expression import FUNCTIONS, Expression
 
 
 @dataclass(frozen=True)
@@ -76,3 +79,9 @@ def shearable(link: Link) -> Expr:
     across = link.lam * sin(link.b) + link.N1 * cos(link.b)
     along = link.N1 * sin(link.b) - link.lam * cos(link.b)
     return -link.h * link.w * (link.shear * across**2 + link.extension * along**2) / 2
+
+
+def potential(link: Link, U: str) -> Expr:
+    """A potential U of the place, as text in x and z, on a link's length; decimals are taken for the fractions they are."""
+    functions = {name: getattr(sympy, name) for name in FUNCTIONS}
+    return link.h * link.w * sympy.nsimplify(Expression(U, ("x", "z")).of(**functions, x=link.x, z=link.z), rational=True)

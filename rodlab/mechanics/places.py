@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from rodlab.mechanics.joints import Joints
+from rodlab.numerics.anchored import Anchored
 from rodlab.numerics.arrays import Array
 
 
@@ -69,14 +70,17 @@ class Places:
         """What dead forces take from the diagonal of the Hessian."""
         return np.asarray(np.sin(phi) * self.carried(X) + np.cos(phi) * self.carried(Z))
 
-    def hardening(self, phi: Array, xx: Any, xz: Any, zz: Any) -> Array:
-        """J^T diag(e'') J, the full part of the Hessian where forces change with the place, shape (n, n)."""
-        n = phi.size
-        A = self.h * (np.tril(np.broadcast_to(self.w, (n, n)), -1) + np.diag(self.own))
-        Jx, Jz = A * np.cos(phi), -A * np.sin(phi)
-        xx, xz, zz = (np.broadcast_to(e, n)[:, None] for e in (xx, xz, zz))
-        mixed = Jx.T @ (xz * Jz)
-        return np.asarray(Jx.T @ (xx * Jx) + Jz.T @ (zz * Jz) + mixed + mixed.T)
+    def anchored(self, local: Any, phi: Array, xx: Any, xz: Any, zz: Any) -> Anchored:
+        """The Hessian `local` and J^T diag(e'') J, from forces that change with the place; z left out where none change with it."""
+        used = 1 if all(np.ndim(e) == 0 and e == 0 for e in (xz, zz)) else 2
+        turn = np.stack([np.cos(phi), -np.sin(phi)])[:used]
+        lower = np.zeros_like(turn)
+        lower[:, 1:] = self.h * (1 - self.theta) * self.w[:-1] * turn[:, :-1]
+        stiffness = np.empty((used, used, phi.size))
+        for (k, m), e in {(0, 0): xx, (0, 1): xz, (1, 0): xz, (1, 1): zz}.items():
+            if max(k, m) < used:
+                stiffness[k, m] = e
+        return Anchored(local, lower, self.h * self.own * turn, stiffness)
 
     def size(self, X: Any, Z: Any) -> Array:
         """Bound on the moments of the forces, shape (n,)."""

@@ -23,9 +23,10 @@ if TYPE_CHECKING:
 TERMS: dict[str, Callable[..., Term]] = {
     make.__name__: make for make in (self_weight, foundation, end_torque, end_force, shearable, potential)
 }
-BY_RULE = ("n", "K", "u_hat", "rule", "phi0", "breaks")
-BY_JOINT = ("k", "beta", "h", "beta0", "weights")
-OF_ROD = ("K", "u_hat", "phi0", "breaks", "degree", "mesh", "tol", "points")
+HELD = ("ends", "phi1", "offset")
+BY_RULE = ("n", "K", "u_hat", "rule", "phi0", "breaks", *HELD)
+BY_JOINT = ("k", "beta", "h", "beta0", "weights", *HELD)
+OF_ROD = ("K", "u_hat", "phi0", "breaks", "degree", "mesh", "tol", "points", *HELD)
 
 
 def build(recipe: Mapping[str, Any]) -> "Strut | Rod | VariedStrut | VariedRod":
@@ -52,9 +53,8 @@ def build(recipe: Mapping[str, Any]) -> "Strut | Rod | VariedStrut | VariedRod":
         if lam is not None:
             raise ValueError("lam must be given in a model only with vary, the name of the parameter that is followed")
         return model
-    if lam is None:
-        raise ValueError(f"lam must be given where {vary} is followed: the load that stays")
-    return model.vary(vary, lam)
+    varied: Strut | Rod | VariedStrut | VariedRod = model.vary(vary, lam)
+    return varied
 
 
 def _strut(given: Mapping[str, Any], terms: tuple[Term, ...], *, joints: bool) -> "Strut":
@@ -88,7 +88,7 @@ def changed(arguments: Mapping[str, Any], terms: Sequence[Term], changes: Mappin
         owner = next((i for i, term in enumerate(own) if name in term.parameters), None)
         if owner is not None:
             own[owner] = replace(own[owner], parameters={**own[owner].parameters, name: value})
-        elif name in given:
+        elif name in given or name in HELD:
             given[name] = value
         else:
             known = [*given, *(p for term in own for p in term.parameters)]

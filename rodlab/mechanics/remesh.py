@@ -17,8 +17,7 @@ from rodlab.mechanics import rod_bounds
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.resolution import CHORD, Corrected, companion_of, softening, springs
 from rodlab.numerics.arrays import EPS, Array
-from rodlab.numerics.collocated import Condensed
-from rodlab.numerics.collocation import Grid
+from rodlab.numerics.collocated import Collocated, Condensed
 from rodlab.numerics.mesh import equidistributed, halved
 from rodlab.numerics.pieces import smooth_pieces
 
@@ -43,18 +42,18 @@ def adapted(rod: "Rod", u: Array, lam: float, tangent: Array | None) -> "tuple[R
         return None
     known = companion_of(rod, u, lam)
     with np.errstate(all="ignore"):
-        change, last = (float(np.abs(step).max()) for step in (known.first + known.second, known.second))
+        change, last = (float(np.abs(step).max()) for step in (known.moved(), rod.angles(known.second)))
         settled = change < FAR and last <= max(0.25 * change, 1e-9, noise(known, lam))
     if not settled:  # beyond a length a finer mesh would not mend it: the error of a point tells
         return _on(rod, rod, u, halved(rod.mesh), tangent) if rod.grid.N <= HALVED else None
-    errors = _errors(rod, u, lam, known) / min(max(float(np.abs(known.u).max()), SMALLEST), 1.0)
+    errors = _errors(rod, u, lam, known) / min(max(float(np.abs(rod.angles(known.u)).max()), SMALLEST), 1.0)
     total, keep, aim = float(errors.sum()), KEEP * rod.tol, AIM * rod.tol
     if abs(lam - rod.expected[0]) <= SAME * abs(lam) and rod.expected[1] < total < ROUNDED:
         rod.stuck = 4 * total  # the last mesh was no better here: rounding, which the error of a point tells
     if total <= rod.stuck or SPARE * aim < total <= keep:
         return None
     if total <= keep:
-        mesh = _coarser(rod, errors, float(np.abs(known.u).max()))
+        mesh = _coarser(rod, errors, float(np.abs(rod.angles(known.u)).max()))
         return None if mesh is None else _on(rod, known.rod, known.u, mesh, tangent)
     mesh = equidistributed(rod.mesh, errors, aim, 2 * rod.degree + 1, rod.breaks)
     if mesh.size > 2 * rod.mesh.size > LONG or np.array_equal(mesh, rod.mesh):
@@ -101,16 +100,17 @@ def _errors(rod: "Rod", u: Array, lam: float, known: Corrected) -> Array:
     """What each interval contributes to the error, (N,)."""
     fine, N = known.rod, rod.grid.N
     matrix = rod.jacobian(u, lam)
-    ends, own_ends = known.matrix.condensed(), matrix.condensed()
+    ends, own_ends = known.local(lam).condensed(), (matrix if isinstance(matrix, Collocated) else rod.local(u, lam)).condensed()
     own, tested = rod.tested(u, lam, rod.grid.wide), fine.tested(fine.moved(rod, u), lam, fine.grid.wide)
     missed = np.asarray(np.abs(_at_ends(tested, ends) - _at_ends(own, own_ends)), dtype=np.float64)
     turn = _diagonal_of_inverse(ends)
     errors = missed[:, 0] * np.append(0.0, turn[:-1]) + missed[:, 1] * turn
-    rest = matrix.factor().solve(-np.asarray(Grid.gathered(own), dtype=np.float64))  # what Newton's method left undone
-    turned = (known.first + known.second).reshape(N, -1)[:, -1] - rest.reshape(N, -1)[:, -1]
-    if float(np.abs(rest).max()) > CHORD:  # stiffness is compared where both are solved
+    rest = matrix.factor().solve(-rod.residual_wide(u, lam))  # what Newton's method left undone
+    left = rod.angles(rest)
+    turned = known.moved().reshape(N, -1)[:, -1] - left.reshape(N, -1)[:, -1]
+    if float(np.abs(left).max()) > CHORD:  # stiffness is compared where both are solved
         u = u + rest
-        own_ends = rod.jacobian(u, lam).condensed()
+        own_ends = rod.local(u, lam).condensed()
     seen, total = float(np.abs(turned).max()), float(errors.sum())
     errors = errors * max(seen / total, CANCEL) if total > 0 else np.full(N, seen / N)
     if seen <= noise(known, lam):  # no mesh does better
@@ -120,9 +120,9 @@ def _errors(rod: "Rod", u: Array, lam: float, known: Corrected) -> Array:
 
 def noise(known: Corrected, lam: float) -> float:
     """How far rounding alone can move the companion's angles: its answer to noise of random signs, and a margin."""
-    size = rod_bounds.sizes(known.rod, known.u, lam)
+    size = known.rod.sizes(known.u, lam)
     signs = np.where(np.sin(1.0 + 7.0 * np.arange(size.size) ** 2) > 0, 1.0, -1.0)
-    return 16 * rod_bounds.WIDE * float(np.abs(known.factor.solve(signs * size)).max())
+    return 16 * rod_bounds.WIDE * float(np.abs(known.rod.angles(known.factor.solve(signs * size))).max())
 
 
 def _at_ends(tested: Any, condensed: Condensed) -> Array:

@@ -7,16 +7,17 @@ index        that of the second variation condensed to mesh points, springs k be
 missed       v . F and v . J v of the companion for a null vector v: what moves folds and branch points
 """
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from rodlab.mechanics import rod_bounds
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.bordered import Bordered
-from rodlab.numerics.collocated import BandFactor, Collocated, Condensed
+from rodlab.numerics.collocated import Collocated, Condensed
 from rodlab.numerics.collocation import Grid
 from rodlab.numerics.difference import DifferenceForm, Springs
+from rodlab.numerics.factor import Factor
 from rodlab.numerics.inertia import Inertia
 from rodlab.numerics.nullspace import quadratic
 from rodlab.numerics.slack import Slack
@@ -38,8 +39,16 @@ class Corrected(NamedTuple):
     u: Array
     first: Array
     second: Array
-    matrix: Collocated
-    factor: BandFactor
+    matrix: Any
+    factor: Factor
+
+    def local(self, lam: float) -> Collocated:
+        """The second variation with all forces as they are: the matrix itself, unless ends or places couple the intervals."""
+        return self.matrix if isinstance(self.matrix, Collocated) else self.rod.local(self.u, lam)
+
+    def moved(self) -> Array:
+        """How far the angles are from the rod's own."""
+        return self.rod.angles(self.first + self.second)
 
 
 def companion_of(rod: "Rod", u: Array, lam: float) -> Corrected:
@@ -53,7 +62,7 @@ def companion_of(rod: "Rod", u: Array, lam: float) -> Corrected:
     factor = matrix.factor()
     with np.errstate(all="ignore"):
         first = factor.solve(-fine.residual_wide(v, lam))
-        if float(np.abs(first).max()) > CHORD and np.isfinite(first).all():  # else the same factor serves again
+        if float(np.abs(rod.angles(first)).max()) > CHORD and np.isfinite(first).all():  # else the same factor serves again
             matrix = fine.jacobian(v + first, lam)
             factor = matrix.factor()
         second = factor.solve(-fine.residual_wide(v + first, lam))
@@ -65,7 +74,8 @@ def companion_of(rod: "Rod", u: Array, lam: float) -> Corrected:
 def corrected(rod: "Rod", u: Array, lam: float) -> tuple["Rod", Array]:
     """The companion and its solution, or the rod's own where that could not be reached."""
     known = companion_of(rod, u, lam)
-    settled = float(np.abs(known.second).max()) <= max(0.1 * float(np.abs(known.first).max()), 1e-9)
+    first, second = (float(np.abs(rod.angles(step)).max()) for step in (known.first, known.second))
+    settled = second <= max(0.1 * first, 1e-9)
     return (known.rod, known.u) if settled else (rod, u)
 
 
@@ -74,16 +84,17 @@ def corrected(rod: "Rod", u: Array, lam: float) -> tuple["Rod", Array]:
 
 def tip_error(rod: "Rod", u: Array, lam: float) -> float:
     """Estimate from above of the tip angle's error: of the mesh, of Newton's method, and of rounding."""
-    known = companion_of(rod, u, lam)
-    unit = np.zeros_like(known.u)
-    unit[-1] = 1.0
+    known, i = companion_of(rod, u, lam), rod.observed(u)
+    unit, there, own = np.zeros_like(known.u), known.rod.at_mesh(i), float(u[rod.at_mesh(i)])
+    unit[there] = 1.0
     with np.errstate(all="ignore"):
         adjoint = known.factor.solve(unit)
         rounded = rod_bounds.WIDE + (EPS if rod.varies else 0.0)  # a profile's values are doubles
-        noise = rod_bounds.rounding(known.rod, known.u, lam, adjoint, rounded)
-        left = float(abs(known.second[-1]) + np.abs(known.second).max() ** 2 * np.abs(adjoint).sum())
-        missed = _missed_tip(known, float(u[-1]), lam)
-        total = SAFE * (missed + left) + noise + 2 * EPS * abs(float(u[-1]))
+        noise = known.rod.rounding(known.u, lam, adjoint, rounded)
+        turned = known.rod.angles(known.second)
+        left = float(abs(known.second[there]) + np.abs(turned).max() ** 2 * np.abs(adjoint).sum())
+        missed = _missed_tip(known, i, own, lam)
+        total = SAFE * (missed + left) + noise + 2 * EPS * abs(own)
     return total if np.isfinite(total) else np.inf
 
 
@@ -93,18 +104,19 @@ def condition(rod: "Rod", u: Array, lam: float) -> float:
     unit[-1] = 1.0
     with np.errstate(all="ignore"):
         adjoint = rod.jacobian(u, lam).factor().solve(unit)
-        return float(np.abs(adjoint) @ rod_bounds.sizes(rod, u, lam) / abs(u[-1]))
+        return float(np.abs(adjoint) @ rod.sizes(u, lam) / abs(u[-1]))
 
 
-def _missed_tip(known: Corrected, tip: float, lam: float) -> float:
-    """How far the tip is from the companion's; where that is far, from the companion's own companion, and so on."""
-    found = abs(float(known.u[-1]) - tip)
+def _missed_tip(known: Corrected, i: int, tip: float, lam: float) -> float:
+    """How far the angle at the end of interval i is from the companion's; where that is far, from its companion's, and so on."""
+    found = abs(float(known.u[known.rod.at_mesh(i)]) - tip)
     for _ in range(LEVELS):
         if not found > COARSE:
             break
         finer = companion_of(known.rod, known.u, lam)
-        moved = abs(float(finer.u[-1] - known.u[-1]))
-        found, known = abs(float(finer.u[-1]) - tip) + moved, finer
+        there = float(finer.u[finer.rod.at_mesh(i)])
+        moved = abs(there - float(known.u[known.rod.at_mesh(i)]))
+        found, known = abs(there - tip) + moved, finer
         if moved <= 0.05 * found:
             break
     return found
@@ -144,20 +156,24 @@ def inertia(rod: "Rod", u: Array, lam: float) -> Inertia:
     """That of the second variation, verified where mesh and companion have it in common and every interval is resolved."""
     known = companion_of(rod, u, lam)
     with np.errstate(all="ignore"):
-        off = float(np.abs(known.second).max()) + 4 * EPS * float(np.abs(known.u).max(initial=0.0))
+        off = float(np.abs(rod.angles(known.second)).max()) + 4 * EPS * float(np.abs(rod.angles(known.u)).max(initial=0.0))
     if not np.isfinite(off):
-        return Inertia(0, rod.size, 0)
+        return Inertia(0, rod.freedom, 0)
     fine, own = _inertia_of(known.rod, known.u, lam, off), _inertia_of(rod, u, lam, 0.0)
     low, high = min(own.negative, fine.negative), max(own.negative + own.unclear, fine.negative + fine.unclear)
     if low == high and _resolved(rod, u, lam):
-        return Inertia(low, 0, rod.size - low)
+        return Inertia(low, 0, rod.freedom - low)
     high = max(high, low + 1)
-    return Inertia(low, high - low, max(rod.size - high, 0))
+    return Inertia(low, high - low, max(rod.freedom - high, 0))
 
 
 def _inertia_of(rod: "Rod", u: Array, lam: float, off: float) -> Inertia:
     """Of all solutions within `off` of u; condensed to springs and softening, which rounding of the stiffness does not blur."""
-    matrix, slack = rod.jacobian(u, lam), rod.lipschitz(u, lam)(off, 0.0)[0]
+    matrix = rod.jacobian(u, lam)
+    if not isinstance(matrix, Collocated) or rod.lipschitz is None:
+        known: Inertia = matrix.inertia(2 * off * float(np.abs(softening(rod, u, lam)).max()))
+        return known
+    slack = rod.lipschitz(u, lam)(off, 0.0)[0]
     if not isinstance(slack, Slack):  # no bound is known for a term of one's own
         slack = Slack(rod.grid, np.zeros_like(rod.grid.s), off * abs(lam))
     if not matrix.is_steady():
@@ -167,8 +183,8 @@ def _inertia_of(rod: "Rod", u: Array, lam: float, off: float) -> Inertia:
         return matrix.inertia(slack)
     spread = slack.values.sum(axis=1, keepdims=True) + slack.level
     moved = 4 * spread + 64 * rod.degree * EPS * np.abs(ends)
-    known = DifferenceForm(Springs(k), -Grid.gathered(ends)).inertia(Grid.gathered(moved))
-    return Inertia(known.negative, known.unclear, rod.size - known.negative - known.unclear)
+    own = DifferenceForm(Springs(k), -Grid.gathered(ends)).inertia(Grid.gathered(moved))
+    return Inertia(own.negative, own.unclear, rod.freedom - own.negative - own.unclear)
 
 
 def springs(rod: "Rod", u: Array, condensed: Condensed, lam: float) -> tuple[Array, Array]:

@@ -11,18 +11,19 @@ A mesh that is not given adapts (`rodlab.mechanics.remesh`): each point has the 
 
 from collections.abc import Callable, Sequence
 from copy import copy
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from rodlab.mechanics import bounds, remesh, resolution, rod_bounds, rod_ends, rod_places
+from rodlab.mechanics.held import CANTILEVER, needs_reactions
 from rodlab.mechanics.kernels import density
 from rodlab.mechanics.mirror import mirror
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.recipe import changed, kept, rod_recipe_of, said_of_rod
 from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term, checked
-from rodlab.numerics.arrays import Array, number, vector, whole
+from rodlab.numerics.arrays import EPS, Array, number, vector, whole
 from rodlab.numerics.collocated import Collocated
 from rodlab.numerics.collocation import Grid
 from rodlab.numerics.full import Full
@@ -32,7 +33,6 @@ from rodlab.numerics.pieces import smooth_pieces
 
 if TYPE_CHECKING:
     from rodlab.mechanics.limit import Limit
-    from rodlab.mechanics.varied_rod import VariedRod
 
 FIRST = 4  # intervals of the first mesh
 HIGHEST = 32  # degree
@@ -45,7 +45,7 @@ class Rod:
 
     K, u_hat: a number, a function of an array s, or an expression in s; jumps and kinks are found, those narrower than a
     hundredth must be declared in `breaks`; either are points of every mesh. degree: of the polynomials, order 2 degree.
-    mesh: a number of intervals or points from 0 to 1; None adapts it so that the angles at mesh points are right to `tol`.
+    terms, ends, phi1, offset: as of a strut. mesh: a number of intervals or points from 0 to 1; None adapts it so that the angles at mesh points are right to `tol`.
     Raises `ValueError`, in one sentence, for whatever is not of this form.
 
     >>> rod = Rod(K="1 + s", u_hat=0.5)
@@ -54,6 +54,14 @@ class Rod:
     >>> Rod(mesh=2, degree=1).gradient([0.1, 0.2], 0.0)             # two links of length 1/2: springs K / h = 2
     array([0. , 0.2])
     """
+
+    def __new__(cls, *_: Any, **given: Any) -> "Rod":
+        """A rod of the kind that its ends ask for."""
+        if cls is Rod and needs_reactions(_[8] if len(_) > 8 else given.get("ends"), given):
+            from rodlab.mechanics.held_rod import HeldRod
+
+            return object.__new__(HeldRod)
+        return object.__new__(cls)
 
     def __init__(
         self,
@@ -65,10 +73,10 @@ class Rod:
         mesh: Any = None,
         tol: float = 1e-10,
         terms: Sequence[Term] = (),
-        ends: tuple[str, str] = ("clamped", "free"),
+        ends: tuple[str, str] = CANTILEVER,
+        phi1: float = 0.0,
+        offset: float = 0.0,
     ) -> None:
-        if not isinstance(ends, (tuple, list)) or tuple(ends) != ("clamped", "free"):
-            raise ValueError(f"ends must be ('clamped', 'free'); they are {ends!r}")
         self.arguments = kept(
             {"K": K, "u_hat": u_hat, "phi0": phi0, "breaks": breaks, "degree": degree, "mesh": mesh, "tol": tol, "terms": terms}
         )
@@ -108,6 +116,7 @@ class Rod:
     def _collocate(self, mesh: Array, degree: int) -> None:
         self.grid = Grid(mesh, degree)
         self._last_state: tuple[Array, Array, Array] | None = None
+        self._last_hardening: tuple[Array, Array] | None = None
         self.last_corrected: tuple[Array, float, resolution.Corrected] | None = None
         s = self.grid.s
         self.parameters: dict[str, Any] = {
@@ -129,7 +138,7 @@ class Rod:
         other = copy(self)
         for name in DERIVED:
             other.__dict__.pop(name, None)
-        other._last_state = other.last_corrected = None
+        other._last_state = other._last_hardening = other.last_corrected = None
         return other
 
     def on_points(self, points: Sequence[float]) -> "Rod":
@@ -150,8 +159,12 @@ class Rod:
         recipe = rod_recipe_of(self.arguments, self.terms)
         return None if recipe is None else {**recipe, "points": self.mesh.tolist()}
 
-    def vary(self, name: str, lam: float) -> "VariedRod":
+    def vary(self, name: str, lam: float | None = None) -> Any:
         """The same rod at the load lam, with its parameter `name` in the place of the load; see `rodlab.vary`."""
+        if name == "shortening":
+            from rodlab.mechanics.held_rod import HeldRod
+
+            return HeldRod.around(self, CANTILEVER).vary(name, lam)
         from rodlab.mechanics.varied_rod import VariedRod
 
         return VariedRod(self, name, lam)
@@ -170,6 +183,16 @@ class Rod:
         return self.grid.degree
 
     @property
+    def flexibility(self) -> float:
+        """How far a unit couple on the end turns it: the integral of 1 / K."""
+        return self.compliance[0]
+
+    @property
+    def foot_angle(self) -> float:
+        """The angle of the clamp."""
+        return self.phi0
+
+    @property
     def varies(self) -> bool:
         """True when a property depends on s."""
         return any(profile.constant is None for profile in self.profiles.values())
@@ -178,6 +201,11 @@ class Rod:
     def size(self) -> int:
         """Number of unknowns."""
         return self.grid.N * self.degree
+
+    @property
+    def freedom(self) -> int:
+        """Number of eigenvalues of the second variation."""
+        return self.size
 
     # --- energy and its derivatives ------------------------------------------------------------------------------
 
@@ -191,7 +219,7 @@ class Rod:
 
     @cached_property
     def _without_load(self) -> Any:
-        return density(self._unloaded)
+        return self._with_load if self.terms else density(self._unloaded)
 
     def given(self, kernel: Any) -> dict[str, Any]:
         """The parameters that a kernel asks for."""
@@ -259,11 +287,21 @@ class Rod:
     def local(self, u: Array, lam: float) -> Collocated:
         """The second variation with the forces of terms as they are: all of it but for a foundation."""
         k, mixed, soft = self.stiffness(u, lam)
-        return self.grid.second(self._stiff if k is self.parameters["K"] else self.grid.stiff(k), mixed, soft)
+        matrix = self.grid.second(self._stiff if k is self.parameters["K"] else self.grid.stiff(k), mixed, soft)
+        matrix.parts = partial(self.grid.quadratic, k, mixed, soft)
+        return matrix
 
     def hardening(self, u: Array) -> Array | None:
-        """The rest of it over all nodes, the foot's first: (N m + 1, N m + 1); None where no force changes with the place."""
-        return rod_places.hardening(self, self.at_gauss(u)[0]) if self.kernel().hardens else None
+        """The rest of it over all nodes, the foot's first: (N m + 1, N m + 1); None where no force changes with the place.
+
+        Kept for the last u that was asked for: the border of other ends asks for its first column too.
+        """
+        if not self.kernel().hardens:
+            return None
+        angle, _ = self.at_gauss(u)
+        if self._last_hardening is None or self._last_hardening[0] is not angle:
+            self._last_hardening = angle, rod_places.hardening(self, angle)
+        return self._last_hardening[1]
 
     def jacobian(self, u: Array, lam: float) -> Collocated | Full:
         """The Hessian, of arguments that are not looked at."""
@@ -342,9 +380,25 @@ class Rod:
     def compliance(self) -> tuple[float, float]:
         return rod_bounds.compliance(self)
 
-    def rounding(self, u: Array, lam: float, v: Array) -> float:
-        """Bound on |v . (computed gradient - exact gradient)|."""
-        return rod_bounds.rounding(self, u, lam, v)
+    def rounding(self, u: Array, lam: float, v: Array, eps: float = EPS) -> float:
+        """Bound on |v . (computed gradient - exact gradient)| for arithmetic of this precision."""
+        return rod_bounds.rounding(self, u, lam, v, eps)
+
+    def sizes(self, u: Array, lam: float) -> Array:
+        """Sum of the sizes of what is added up to each entry of the gradient, (N m,)."""
+        return rod_bounds.sizes(self, u, lam)
+
+    def angles(self, u: Array) -> Array:
+        """The angles among the unknowns, or their part of a direction: all of them."""
+        return u
+
+    def at_mesh(self, i: int) -> int:
+        """The place in u of the angle at the upper end of interval i."""
+        return (i + 1) * self.degree - 1
+
+    def observed(self, u: Array) -> int:
+        """At which interval's end the error of a point is told: the last."""
+        return self.grid.N - 1
 
     @cached_property
     def companion(self) -> "Rod":
@@ -386,6 +440,10 @@ class Rod:
         other.parameters = {**self.parameters, **values}
         other.profiles = {**self.profiles, **{name: Profile(name, value) for name, value in values.items()}}
         return other
+
+    def acting(self, u: Array, lam: float) -> "tuple[Rod, Array, float]":
+        """The clamped rod whose state this is, its angles, and the load on it: itself."""
+        return self, u, lam
 
     def boundary(self, name: str, u: Array, lam: float) -> float:
         """dV/d(name) of a boundary value: lam, N1, tau, phi0 or x0."""

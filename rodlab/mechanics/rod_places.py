@@ -56,8 +56,10 @@ def hardening(rod: "Rod", angle: Array) -> Array:
         raise ValueError(f"a rod whose terms couple all angles must have at most {MOST} unknowns; on this mesh it has {rod.size}")
     stiffness = W.hardening(*places(rod, angle, grid), **rod.given(W))
     xx, xz, zz = (np.broadcast_to(grid.hb * part, angle.shape).ravel()[:, None] for part in stiffness)
-    J = _cumulative(grid)
-    Jx, Jz = (J * turn.ravel() @ _seen(grid) for turn in (np.cos(angle), -np.sin(angle)))
+    J, seen = grid.cumulative, grid.all_seen
+    Jx, Jz = ((J * turn.ravel()) @ seen for turn in (np.cos(angle), -np.sin(angle)))
+    if not (xz.any() or zz.any()):
+        return np.asarray(Jx.T @ (xx * Jx))
     mixed = Jx.T @ (xz * Jz)
     return np.asarray(Jx.T @ (xx * Jx) + Jz.T @ (zz * Jz) + mixed + mixed.T)
 
@@ -67,23 +69,4 @@ def by_foot(rod: "Rod", angle: Array) -> Array:
     grid, W = rod.grid, rod.kernel()
     xx, xz, _ = W.hardening(*places(rod, angle, grid), **rod.given(W))
     moment = np.cos(angle) * carried(xx, grid) - np.sin(angle) * carried(xz, grid)
-    return np.asarray((grid.hb * moment).ravel() @ _seen(grid))
-
-
-def _cumulative(grid: Grid) -> Array:
-    """x at all Gauss's points from its derivative there, (N m, N m)."""
-    N, m = grid.hb.shape
-    J = np.tril(np.ones((N, N)), -1)[:, None, :, None] * grid.hb[None, None, :, :]
-    J = np.broadcast_to(J, (N, m, N, m)).copy()
-    i = np.arange(N)
-    J[i, :, i, :] = grid.h[:, None, None] * grid.A
-    return J.reshape(N * m, N * m)
-
-
-def _seen(grid: Grid) -> Array:
-    """Values at all Gauss's points from those at all nodes, (N m, N m + 1)."""
-    N, m = grid.hb.shape
-    S = np.zeros((N, m, N * m + 1))
-    for i in range(N):
-        S[i, :, i * m : i * m + m + 1] = grid.E
-    return S.reshape(N * m, -1)
+    return np.asarray((grid.hb * moment).ravel() @ grid.all_seen)

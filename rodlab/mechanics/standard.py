@@ -372,19 +372,19 @@ class limit_of_bending_with_rest_and_end_load:
 
 
 KERNELS: dict[str, Any] = {
-    "bending": bending,
-    "bending_with_rest": bending_with_rest,
-    "bending_and_end_load": bending_and_end_load,
-    "bending_and_end_load_weighted": bending_and_end_load_weighted,
-    "bending_with_rest_and_end_load": bending_with_rest_and_end_load,
-    "bending_with_rest_and_end_load_weighted": bending_with_rest_and_end_load_weighted,
-    "bending_weighted": bending,
-    "bending_with_rest_weighted": bending_with_rest,
+    'bending': bending,
+    'bending_with_rest': bending_with_rest,
+    'bending_and_end_load': bending_and_end_load,
+    'bending_and_end_load_weighted': bending_and_end_load_weighted,
+    'bending_with_rest_and_end_load': bending_with_rest_and_end_load,
+    'bending_with_rest_and_end_load_weighted': bending_with_rest_and_end_load_weighted,
+    'bending_weighted': bending,
+    'bending_with_rest_weighted': bending_with_rest,
 }
 
 DENSITIES: dict[str, Any] = {
-    "limit_of_bending": limit_of_bending,
-    "limit_of_bending_with_rest": limit_of_bending_with_rest,
-    "limit_of_bending_and_end_load": limit_of_bending_and_end_load,
-    "limit_of_bending_with_rest_and_end_load": limit_of_bending_with_rest_and_end_load,
+    'limit_of_bending': limit_of_bending,
+    'limit_of_bending_with_rest': limit_of_bending_with_rest,
+    'limit_of_bending_and_end_load': limit_of_bending_and_end_load,
+    'limit_of_bending_with_rest_and_end_load': limit_of_bending_with_rest_and_end_load,
 }

@@ -4,7 +4,7 @@
     height      = h sum_i w_i cos(phi_i)  +  h (1 - w_n) cos(phi_0)
 
 Unknowns phi_1..phi_n, shape (n,), in radians. Positive phi turns clockwise: x' = sin phi, z' = cos phi.
-Cost of every method: O(n), but for the Hessian with a term quadratic in the place (a foundation), which is full.
+Cost of every method: O(n).
 """
 
 from collections.abc import Callable, Sequence
@@ -18,6 +18,7 @@ import numpy as np
 from rodlab.mechanics import bounds, strut_ends
 from rodlab.mechanics import joints as joints_of
 from rodlab.mechanics.assembly import balance, difference_form, full
+from rodlab.mechanics.held import CANTILEVER, checked_ends, needs_reactions
 from rodlab.mechanics.joints import Joints
 from rodlab.mechanics.kernels import Kernel, kernel
 from rodlab.mechanics.mirror import mirror
@@ -25,16 +26,13 @@ from rodlab.mechanics.places import Places
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.recipe import changed, kept, recipe_of, said_of
 from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term, checked
+from rodlab.numerics.anchored import Anchored
 from rodlab.numerics.arrays import EPS, Array, number, vector
 from rodlab.numerics.difference import DifferenceForm, Springs
-from rodlab.numerics.full import Full
 from rodlab.numerics.tridiagonal import Tridiagonal
 
 if TYPE_CHECKING:
     from rodlab.mechanics.derivation import Derivation
-    from rodlab.mechanics.varied import VariedStrut
-
-FULL_LIMIT = 4000
 
 
 class Strut:
@@ -42,7 +40,9 @@ class Strut:
 
     K, u_hat: a number, n numbers (one a joint), a function of an array s, or an expression in s. rule: "end" (the notes,
     order 1) or "trapezoid" (order 2, also across the jumps declared in `breaks`). phi0: angle of the clamp.
-    terms: `self_weight(q)`, `foundation(c)`, `end_torque(tau)` or your own `term(...)`.
+    terms: `self_weight(q)`, `foundation(c)`, `end_torque(tau)`, `end_force(N1)`, `shearable(A1, A3)`, `potential(U)` or your own
+    `term(...)`. ends: of the foot and the top, "clamped", "hinged", "guided" (the angle held, the place not) or "free"; phi1: the
+    angle, and offset: the place x that the top is held at (see `rodlab.mechanics.held`).
     Raises `ValueError`, in one sentence, for whatever is not of this form.
 
     >>> strut = Strut(n=3, u_hat=0.75)
@@ -51,6 +51,14 @@ class Strut:
     >>> strut.hessian([0.0, 0.0, 0.0], 5.0).index
     1
     """
+
+    def __new__(cls, *_: Any, **given: Any) -> "Strut":
+        """A strut of the kind that its ends ask for."""
+        if cls is Strut and needs_reactions(_[7] if len(_) > 7 else given.get("ends"), given):
+            from rodlab.mechanics.held_strut import HeldStrut
+
+            return object.__new__(HeldStrut)
+        return object.__new__(cls)
 
     def __init__(
         self,
@@ -61,10 +69,10 @@ class Strut:
         phi0: float = 0.0,
         breaks: Sequence[float] = (),
         terms: Sequence[Term] = (),
-        ends: tuple[str, str] = ("clamped", "free"),
+        ends: tuple[str, str] = CANTILEVER,
+        phi1: float = 0.0,
+        offset: float = 0.0,
     ) -> None:
-        if not isinstance(ends, (tuple, list)) or tuple(ends) != ("clamped", "free"):
-            raise ValueError(f"ends must be ('clamped', 'free'); they are {ends!r}")
         self.arguments = kept({"n": n, "K": K, "u_hat": u_hat, "rule": rule, "phi0": phi0, "breaks": breaks, "terms": terms})
         self._build(joints_of.by_rule(n, K, u_hat, rule, phi0, breaks), terms, breaks)
 
@@ -77,6 +85,9 @@ class Strut:
         beta0: float = 0.0,
         weights: Any = None,
         terms: Sequence[Term] = (),
+        ends: tuple[str, str] = CANTILEVER,
+        phi1: float = 0.0,
+        offset: float = 0.0,
     ) -> "Strut":
         """The strut with these spring constants k (n,), rest angles beta (n,) and length h of a link.
 
@@ -88,7 +99,11 @@ class Strut:
         joints = joints_of.given(k, beta, h, beta0, weights)
         strut.arguments = kept({"k": k, "beta": beta, "h": h, "beta0": beta0, "weights": weights, "terms": terms})
         strut._build(joints, terms, ())
-        return strut
+        if not needs_reactions(ends, {"phi1": phi1, "offset": offset}):
+            return strut
+        from rodlab.mechanics.held_strut import HeldStrut
+
+        return HeldStrut.around(strut, checked_ends(ends), phi1, offset)
 
     def replace(self, **changes: Any) -> "Strut":
         """The same strut with other arguments, or other parameters of its terms.
@@ -104,8 +119,12 @@ class Strut:
         """What to write into a file so that `rodlab.mechanics.recipe.build` makes this strut again; None for functions."""
         return recipe_of(self.arguments, self.terms)
 
-    def vary(self, name: str, lam: float) -> "VariedStrut":
+    def vary(self, name: str, lam: float | None = None) -> Any:
         """The same strut at the load lam, with its parameter `name` in the place of the load; see `rodlab.vary`."""
+        if name == "shortening":
+            from rodlab.mechanics.held_strut import HeldStrut
+
+            return HeldStrut.around(self, CANTILEVER).vary(name, lam)
         from rodlab.mechanics.varied import VariedStrut
 
         return VariedStrut(self, name, lam)
@@ -161,6 +180,16 @@ class Strut:
         return f"Strut({said_of(self.arguments, self.n, self.terms)})"
 
     @property
+    def flexibility(self) -> float:
+        """How far a unit couple on the end turns it: the sum of 1 / k."""
+        return self.springs.total_compliance
+
+    @property
+    def foot_angle(self) -> float:
+        """The angle of the clamp."""
+        return self.joints.phi0
+
+    @property
     def n(self) -> int:
         """Number of joints."""
         return self.joints.n
@@ -177,7 +206,7 @@ class Strut:
 
     @cached_property
     def _without_load(self) -> Kernel:
-        return kernel(self._unloaded, weighted=self.joints.weights is not None)
+        return self._with_load if self.terms else kernel(self._unloaded, weighted=self.joints.weights is not None)
 
     def energy(self, phi: Any, lam: float) -> Any:
         """V(phi; lam): a float, or complex for complex angles. `ValueError` unless phi (n,) and lam are finite."""
@@ -192,10 +221,10 @@ class Strut:
         """dV/dphi, shape (n,): the balance of moments on each link. `ValueError` unless phi (n,) and lam are finite."""
         return self.residual(*self._state(phi, lam))
 
-    def hessian(self, phi: Any, lam: float) -> DifferenceForm | Tridiagonal | Full:
+    def hessian(self, phi: Any, lam: float) -> DifferenceForm | Tridiagonal | Anchored:
         """d2V/dphi2: `.diagonal`, `.off_diagonal`, `.toarray()`, `.index`, `.solve(b)`; symmetric.
 
-        Tridiagonal, but full with a term quadratic in the place (a foundation), which more than 4000 joints cannot have.
+        Tridiagonal; with a term quadratic in the place (a foundation) full, but known by O(n) numbers (`rodlab.numerics.anchored`).
         """
         return self.jacobian(*self._state(phi, lam))
 
@@ -218,7 +247,7 @@ class Strut:
             g += self.places.moments(u, *link.forces(*self.places.of(u, self.x0), **given))
         return g
 
-    def jacobian(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Full:
+    def jacobian(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Anchored:
         """The Hessian, of arguments that are not looked at."""
         link = self.kernel(lam)
         given = self.given(link)
@@ -231,14 +260,9 @@ class Strut:
             c += self.places.softening(u, *forces)
             spread = 2 * self.n * EPS * float(self.places.size(*forces).max())  # of their cumulative sums
         local = difference_form(self.springs if k is self.joints.k else full(k, self.n), c, spread)
-        if not link.hardens:
-            return local
-        if self.n > FULL_LIMIT:
-            raise ValueError(f"n must be at most {FULL_LIMIT} where a term couples all angles (a foundation); it is {self.n}")
-        x, z = self.places.of(u, self.x0)
-        return Full(local.toarray() + self.places.hardening(u, *link.hardening(x, z, **given)))
+        return self.places.anchored(local, u, *link.hardening(*self.places.of(u, self.x0), **given)) if link.hardens else local
 
-    def second_variation(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Full:
+    def second_variation(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Anchored:
         """The Hessian, whose negative eigenvalues are the index."""
         return self.jacobian(u, lam)
 

@@ -63,7 +63,10 @@ def reach(strut: "Strut", u: Array, lam: float) -> tuple[Array, Array]:
     """x, z of the joints 1..n from the foot: what the links reach, those of a strut that shears and extends as well."""
     link, own = strut.kernel(), foot(strut, lam)
     parts = link.reach(strut.below(u), u, lam, **strut.given(link))
-    return tuple(strut.places.along(full(part, strut.n), first) + x for part, first, x in zip(parts, own.reach, (strut.x0, 0.0), strict=True))  # type: ignore[return-value]
+    return tuple(
+        strut.places.along(full(part, strut.n), first) + x
+        for part, first, x in zip(parts, own.reach, (strut.x0, 0.0), strict=True)
+    )  # type: ignore[return-value]
 
 
 def boundary(strut: "Strut", name: str, u: Array, lam: float) -> float:

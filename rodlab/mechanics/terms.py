@@ -29,7 +29,9 @@ class Potential:
     U: str
 
     def __call__(self, link: Any) -> Any:
-        return link.h * link.w * Expression(self.U, ("x", "z")).of(x=link.x, z=link.z)
+        from rodlab.mechanics.link import potential
+
+        return potential(link, self.U)
 
 
 @dataclass(frozen=True)
@@ -154,12 +156,16 @@ def checked(terms: Any) -> tuple[Term, ...]:
     taken: dict[str, str] = dict.fromkeys(("a", "b", "x", "z", "lam", "k", "beta", "h", "w", "phi", "phi_s"), "the model")
     for term in given:
         if not isinstance(term, Term):
-            raise ValueError(f"terms must be made by self_weight, foundation, end_torque, end_force, shearable, potential or term; one is {term!r}")
+            raise ValueError(
+                f"terms must be made by self_weight, foundation, end_torque, end_force, shearable, potential or term; one is {term!r}"
+            )
         for name in term.parameters:
             if name.startswith("_") or keyword.iskeyword(name) or hasattr(np, name) or re.fullmatch(r"t\d+", name):
                 raise ValueError(f"the parameter {name} of {term.name} must have a name that numpy and the kernel do not use")
             if name == "N1" and term.name != "end_force":
-                raise ValueError(f"the parameter N1 of {term.name} is the dead force on the end; give end_force(N1) as well, and use it")
+                raise ValueError(
+                    f"the parameter N1 of {term.name} is the dead force on the end; give end_force(N1) as well, and use it"
+                )
             if name in taken:
                 raise ValueError(f"the parameter {name} of {term.name} is already that of {taken[name]}; give each once")
             taken[name] = term.name

@@ -7,6 +7,7 @@ Spring constants and rest angles are proportional to the value; the derivative o
 """
 
 from collections.abc import Callable
+from copy import copy
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -32,13 +33,13 @@ class VariedStrut:
     (Strut(n=4, K=1.0, u_hat=0.5, rule='end'), 0.0)
     """
 
-    def __init__(self, strut: "Strut", name: str, lam: float) -> None:
+    def __init__(self, strut: "Strut", name: str, lam: float | None) -> None:
         own = [p for term in strut.terms for p in term.parameters]
         known = [n for n in (*ARRAY, *CLAMP) if n in strut.arguments] + own
         if name not in known:
             raise ValueError(f"name must be a parameter of the strut, one of {', '.join(known)}; it is {name!r}")
-        if name in CLAMP and strut.kernel().hardens:
-            raise ValueError(f"{name} cannot be followed where a term is quadratic in the place (a foundation)")
+        if lam is None:
+            raise ValueError(f"lam must be given where {name} is followed: the load that stays")
         self.strut, self.name, self.lam = strut, name, number("lam", lam)
         given = next((t.parameters[name] for t in strut.terms if name in t.parameters), strut.arguments.get(name))
         if given is None:
@@ -51,6 +52,11 @@ class VariedStrut:
 
     def __repr__(self) -> str:
         return f"VariedStrut({self.strut!r}, {self.name!r}, lam={self.lam:g})"
+
+    @property
+    def is_straight(self) -> bool:
+        """True when phi = 0 is an equilibrium at every value."""
+        return all(self.sharing(value).is_straight for value in (1.0, 2.0))
 
     @property
     def recipe(self) -> dict[str, Any] | None:
@@ -98,6 +104,16 @@ class VariedStrut:
         self._last = (value, strut)
         return strut
 
+    def under(self, lam: float, **values: float) -> "VariedStrut":
+        """The same under another load and these boundary values."""
+        other = copy(self)
+        other.strut, other.lam, other._last = self.strut.under(**values), lam, None
+        return other
+
+    def acting(self, u: Array, value: float) -> "tuple[Strut, Array, float]":
+        """The strut with this value, its angles, and the load on it."""
+        return self.sharing(value), u, self.lam
+
     # --- the equations ------------------------------------------------------------------------------------------
 
     def residual(self, u: Array, value: float) -> Array:
@@ -114,16 +130,14 @@ class VariedStrut:
         """d(gradient)/d(value), shape (n,)."""
         strut = self.sharing(value)
         if self.name in CLAMP:
-            out = np.zeros(strut.n)
-            out[0] = -strut.joints.k[0]
-            return out
+            return strut.column("phi0", u, self.lam)
         link, array = strut.kernel(), ARRAY.get(self.name, self.name)
         given = {name: strut.parameters[name] for name in link.parameters}
         below = np.append(strut.joints.phi0, u[:-1])
         m, f = (np.asarray(part) * self.unit for part in getattr(link, f"moments_{array}")(below, u, self.lam, **given))
         g = balance(full(m, strut.n), f, u)
         if link.places:
-            forces = getattr(link, f"forces_{array}")(*strut.places.of(u), **given)
+            forces = getattr(link, f"forces_{array}")(*strut.places.of(u, strut.x0), **given)
             g += strut.places.moments(u, *(np.asarray(force) * self.unit for force in forces))
         return g
 
@@ -138,7 +152,7 @@ class VariedStrut:
         """The strut's, at the fixed load."""
         return {
             "tip_angle": lambda u, _: float(u[-1]),
-            "height": lambda u, value: self.sharing(value).height(u),
+            "height": lambda u, value: self.sharing(value).boundary("lam", u, self.lam),
             "energy": lambda u, value: float(self.sharing(value).energy(u, self.lam)),
         }
 
@@ -167,5 +181,4 @@ class VariedStrut:
 
     def shape_at(self, u: Array, value: float) -> tuple[Array, Array, Array, Array]:
         """s, phi and x, z of the shape at a value of the parameter, which may be the clamp's angle."""
-        strut = self.sharing(value)
-        return *strut.nodes(u), *strut.shape(u)
+        return self.sharing(value).shape_at(u, self.lam)

@@ -9,13 +9,12 @@ from copy import copy
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from rodlab.mechanics import bounds, remesh
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.terms import BENDING_WITH_REST, END_LOAD
 from rodlab.numerics.arrays import Array, number
 from rodlab.numerics.collocated import Collocated
+from rodlab.numerics.collocation import Grid
 from rodlab.numerics.inertia import Inertia
 
 if TYPE_CHECKING:
@@ -31,11 +30,13 @@ class VariedRod:
     (Rod(K=1.0, u_hat=0.5), 0.0)
     """
 
-    def __init__(self, rod: "Rod", name: str, lam: float) -> None:
+    def __init__(self, rod: "Rod", name: str, lam: float | None) -> None:
         own = [p for term in rod.terms for p in term.parameters]
         known = ["K", "u_hat", "phi0", *own]
         if name not in known:
             raise ValueError(f"name must be a parameter of the rod, one of {', '.join(known)}; it is {name!r}")
+        if lam is None:
+            raise ValueError(f"lam must be given where {name} is followed: the load that stays")
         self.rod, self.name, self.lam = rod, name, number("lam", lam)
         self.profile: Profile | None = None if name == "phi0" else rod.profiles[name]
         self.scalar = self.profile is None or self.profile.constant is not None
@@ -44,6 +45,11 @@ class VariedRod:
 
     def __repr__(self) -> str:
         return f"VariedRod({self.rod!r}, {self.name!r}, lam={self.lam:g})"
+
+    @property
+    def is_straight(self) -> bool:
+        """True when phi = 0 is an equilibrium at every value."""
+        return all(self.sharing(value).is_straight for value in (1.0, 2.0))
 
     @property
     def recipe(self) -> dict[str, Any] | None:
@@ -60,6 +66,12 @@ class VariedRod:
         if isinstance(given, str):
             return self.rod.replace(**{self.name: f"({value!r})*({given})"})
         return self.rod.replace(**{self.name: lambda s: value * given(s)})  # type: ignore[misc]
+
+    def under(self, lam: float, **values: float) -> "VariedRod":
+        """The same under another load and these boundary values."""
+        other = copy(self)
+        other.rod, other.lam, other._last = self.rod.under(**values), lam, None
+        return other
 
     def _unit(self, rod: "Rod") -> Any:
         """The parameter at Gauss's points of a rod's mesh, at the value 1."""
@@ -85,9 +97,23 @@ class VariedRod:
     def _on(self, rod: "Rod") -> "VariedRod":
         """The same equations on another mesh."""
         other = copy(self)
-        other.rod, other._last = self.rod.on(rod.mesh), None
+        other.rod, other._last = self.rod.on(rod.mesh, rod.degree), None
         other.rod.expected, other.rod.stuck = rod.expected, rod.stuck
         return other
+
+    def on(self, mesh: Array, degree: int | None = None) -> "VariedRod":
+        """The same on another mesh, or with another degree."""
+        return self._on(self.rod.on(mesh, degree))
+
+    @property
+    def degree(self) -> int:
+        """The rod's."""
+        return self.rod.degree
+
+    @property
+    def grid(self) -> Grid:
+        """The rod's."""
+        return self.rod.grid
 
     @property
     def mesh(self) -> Array:
@@ -97,6 +123,10 @@ class VariedRod:
     def on_points(self, points: Sequence[float]) -> "VariedRod":
         """The same equations on the mesh of these points, as a recipe holds them."""
         return self._on(self.rod.on_points(points))
+
+    def acting(self, u: Array, value: float) -> "tuple[Rod, Array, float]":
+        """The rod with this value, its angles, and the load on it."""
+        return self.sharing(value), u, self.lam
 
     # --- the equations -----------------------------------------------------------------------------------------
 

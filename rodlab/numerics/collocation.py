@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from rodlab.numerics.arrays import Array
+from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.collocated import Collocated, Layout, layout
 from rodlab.numerics.gauss import Basis, basis
 
@@ -125,6 +125,24 @@ class Grid:
         before = np.append(0.0, np.cumsum(inner[:-1, -1]))
         return (before[:, None] + inner).ravel()
 
+    @cached_property
+    def cumulative(self) -> Array:
+        """Integrals from the clamp to all Gauss's points of a function known there, (N m, N m)."""
+        N, m = self.hb.shape
+        J = np.broadcast_to(np.tril(np.ones((N, N)), -1)[:, None, :, None] * self.hb, (N, m, N, m)).copy()
+        i = np.arange(N)
+        J[i, :, i, :] = self.h[:, None, None] * self.A
+        return J.reshape(N * m, N * m)
+
+    @cached_property
+    def all_seen(self) -> Array:
+        """Values at all Gauss's points from those at all nodes, the clamp's first, (N m, N m + 1)."""
+        N, m = self.hb.shape
+        S = np.zeros((N, m, N * m + 1))
+        for i in range(N):
+            S[i, :, i * m : i * m + m + 1] = self.E
+        return S.reshape(N * m, -1)
+
     # --- the equations -------------------------------------------------------------------------------------------
 
     def tested(self, m: Any, f: Any) -> Array:
@@ -162,6 +180,15 @@ class Grid:
             blocks += np.broadcast_to(self.b * mixed, (self.N, self.degree)) @ self._products[1]
         n = self.degree + 1
         return Collocated(blocks.reshape(-1, n, n), self.layout)
+
+    def quadratic(self, k: Any, mixed: Any, soft: Any, x: Array) -> tuple[float, float]:
+        """x . A x of the second variation with these coefficients, and a bound on its rounding: no stiffness cancels in its sums."""
+        Y = self.nodal(x, 0.0)
+        value, slope = self.at_gauss(Y)
+        bending, rest = self.hb * k * slope**2, self.hb * (2 * mixed * slope * value + soft * value**2)
+        spread = (np.abs(Y[:, 1:] - Y[:, :1]) @ np.abs(self.slope) + np.abs(Y).max(axis=1, keepdims=True)) / self.h[:, None]
+        lost = 2 * np.sum(np.abs(self.hb * k * slope) * spread) + 8 * self.degree * (np.abs(bending) + np.abs(rest)).sum()
+        return float(np.sum(bending + rest)), float(EPS * lost)
 
 
 @cache

@@ -16,7 +16,7 @@ import numpy as np
 
 from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.bordered import Bordered
-from rodlab.numerics.factor import factor, inertia_of, shifted
+from rodlab.numerics.factor import factor, inertia_of, largest_change, shifted
 from rodlab.numerics.inertia import Inertia, Symmetric
 from rodlab.numerics.nullspace import quadratic
 
@@ -76,6 +76,10 @@ class Constrained(Symmetric):
         """A + mu, or A + diag(mu) with one entry for each y; the border as it is."""
         return Constrained(shifted(self.matrix, mu), self.border, self.corner, self.constraints)
 
+    def largest_change(self, other: "Constrained") -> float:
+        """Bound on the change of A, its border left aside: a slack is one of A."""
+        return largest_change(self.matrix, other.matrix)
+
     # --- solving -------------------------------------------------------------------------------------------------
 
     def factor(self) -> "ConstrainedFactor":
@@ -104,7 +108,9 @@ class Constrained(Symmetric):
         """Least and most negative eigenvalues with A raised (side 1) or lowered (-1) by the slack and as far as A needs to be clear."""
         small = EPS * float(np.abs(self._size).max())
         for nudge in NUDGES:
-            moved = self.matrix if not (np.any(slack) or nudge > 1) else shifted(self.matrix, side * (slack + (nudge - 1) * small))
+            moved = (
+                self.matrix if not (np.any(slack) or nudge > 1) else shifted(self.matrix, side * (slack + (nudge - 1) * small))
+            )
             known = inertia_of(moved)
             assert known is not None
             if known.verified:

@@ -115,7 +115,9 @@ def largest_diagonal(matrix: Any) -> float:
 
 
 def largest_change(a: Any, b: Any) -> float:
-    """Bound on the 2-norm of a - b, two symmetric matrices of one kind."""
+    """Bound on the 2-norm of a - b, two symmetric matrices of one kind; a structured one may know its own."""
+    if hasattr(a, "largest_change"):
+        return float(a.largest_change(b))
     if hasattr(a, "tocsc"):
         return float(abs(a - b).sum(axis=1).max())
     if isinstance(a, np.ndarray) or not hasattr(a, "off_diagonal"):

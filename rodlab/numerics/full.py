@@ -43,6 +43,10 @@ class Full(Symmetric):
     def __matmul__(self, x: Array) -> Array:
         return np.asarray(self._entries @ x)
 
+    def largest_change(self, other: "Full") -> float:
+        """Bound on the 2-norm of the difference."""
+        return float(np.abs(self._entries - other._entries).sum(axis=1).max())
+
     def solve(self, b: Array) -> Array:
         """x with A x = b."""
         return self.factor().solve(b)

@@ -1,0 +1,93 @@
+"""The strut between other ends than clamped and free: `rodlab.mechanics.held` on a strut."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from rodlab.mechanics.held import CANTILEVER, Held, checked_ends, held_arguments, reactions_of
+from rodlab.mechanics.recipe import recipe_of, said_of
+from rodlab.mechanics.strut import Strut
+from rodlab.mechanics.terms import Term
+from rodlab.mechanics.varied import VariedStrut
+from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.inertia import Inertia
+
+
+class HeldStrut(Held, Strut):
+    """A strut whose ends are held otherwise; made by `Strut(..., ends=...)`. Unknowns u: its reactions, then its angles.
+
+    >>> Strut(n=4, ends=("clamped", "hinged"))
+    Strut(n=4, K=1.0, u_hat=0.0, rule='end', ends=('clamped', 'hinged'))
+    """
+
+    def __init__(
+        self,
+        n: int = 100,
+        K: Any = 1.0,
+        u_hat: Any = 0.0,
+        rule: str = "end",
+        phi0: float = 0.0,
+        breaks: Sequence[float] = (),
+        terms: Sequence[Term] = (),
+        ends: tuple[str, str] = CANTILEVER,
+        phi1: float = 0.0,
+        offset: float = 0.0,
+    ) -> None:
+        ends = checked_ends(ends)
+        super().__init__(n, K, u_hat, rule, phi0, breaks, terms)
+        self._hold(Strut(n, K, u_hat, rule, phi0, breaks, (*self.terms, *reactions_of(ends, self.terms))), ends, phi1, offset)
+        self.arguments |= held_arguments(ends, phi1, offset)
+
+    @classmethod
+    def around(cls, strut: Strut, ends: tuple[str, str], phi1: float = 0.0, offset: float = 0.0) -> "HeldStrut":
+        """The strut of these joints between other ends."""
+        held = cls.__new__(cls)
+        held.__dict__.update(strut.__dict__)
+        terms = (*strut.terms, *reactions_of(ends, strut.terms))
+        held._hold(strut.replace(terms=terms) if len(terms) > len(strut.terms) else strut, ends, phi1, offset)
+        held.arguments = {**strut.arguments, **held_arguments(ends, phi1, offset)}
+        return held
+
+    def at(self, value: float) -> Strut:
+        """The strut with this value of what is followed."""
+        return VariedStrut(self.replace(), self.follows, 0.0).at(value) if self._varied else self.replace(**{self.follows: value})
+
+    def __repr__(self) -> str:
+        return self._said(f"Strut({said_of(self.arguments, self.n, self.terms)}")
+
+    @property
+    def recipe(self) -> Mapping[str, Any] | None:
+        """What to write into a file so that `rodlab.mechanics.recipe.build` makes this strut again; None for functions."""
+        return self._recipe(recipe_of(self.arguments, self.terms))
+
+    # --- what a point asks -------------------------------------------------------------------------------------------
+
+    def inertia(self, u: Array, value: float) -> Inertia:
+        """Signs of the eigenvalues of the second variation on the directions that keep what is given, for all solutions near u."""
+        matrix = self.jacobian(u, value)
+        model, phi, lam = self.acting(u, value)
+        with np.errstate(all="ignore"):
+            step = np.abs(matrix.solve(self.residual(u, value)))
+        off = 2 * float(self.angles(step).max()) + 4 * EPS * float(np.abs(phi).max(initial=0.0))
+        loads = 2 * float(step[: len(self.unknowns)].max(initial=0.0))
+        slack = model.lipschitz(phi, lam)(off, loads)[0] if np.isfinite(off + loads) else np.inf
+        if not np.isfinite(slack).all():  # no bound is known for a term of one's own: ten times what is seen
+            if not np.isfinite(off + loads):
+                return Inertia(0, phi.size, 0)
+            moved = (model.jacobian(phi + side * max(off, 1e-6), lam).toarray() for side in (1, -1))
+            here = model.jacobian(phi, lam).toarray()
+            slack = 10 * max(np.abs(other - here).sum(axis=1).max() for other in moved) * off / max(off, 1e-6)
+        known: Inertia = matrix.inertia(slack)
+        return known
+
+    def observed(self, u: Array) -> int:
+        """Which unknown the error of a point is of: the angle of the tip or, where that is held, the largest."""
+        m = len(self.unknowns)
+        return m + int(np.abs(u[m:]).argmax()) if "tau" in self.unknowns else -1
+
+    def shape_at(self, u: Array, lam: float) -> tuple[Array, Array, Array, Array]:
+        """s, phi and x, z of the n + 1 joints."""
+        model, phi, load = self.acting(u, lam)
+        shape: tuple[Array, Array, Array, Array] = model.shape_at(phi, load)
+        return shape
