@@ -118,11 +118,12 @@ _HOME = {
 
 __all__ = [  # the same names; a test compares
     "Bordered", "Branch", "Buckling", "Diagram", "Distinguished", "Elastica", "Equations", "Equilibria", "Event",
-    "Expansion", "Imperfection", "Indices", "Invariants", "Koiter", "Newton", "NoConvergence", "Point", "Rod", "Shape", "ShearableRod", "Strut",
-    "Study", "Term", "Tridiagonal", "all_equilibria", "branch", "branch_point", "branch_points", "buckling", "buckling_loads",
-    "census", "conjugate_points", "deflation", "diagram", "distinguished", "elastica", "end_force", "end_torque", "equilibrium",
-    "expansion", "factor", "fold", "folds", "follow", "foundation", "imperfection", "indices", "invariants", "koiter",
-    "potential", "read", "self_weight", "shear_loads", "shearable", "shearable_principle", "steepest_descent", "study", "switch", "term", "uniqueness", "vary",
+    "Expansion", "Imperfection", "Indices", "Invariants", "Koiter", "Newton", "NoConvergence", "Point", "Rod", "Shape",
+    "ShearableRod", "Strut", "Study", "Term", "Tridiagonal", "all_equilibria", "branch", "branch_point", "branch_points",
+    "buckling", "buckling_loads", "census", "conjugate_points", "deflation", "diagram", "distinguished", "elastica",
+    "end_force", "end_torque", "equilibrium", "expansion", "factor", "fold", "folds", "follow", "foundation",
+    "imperfection", "indices", "invariants", "koiter", "potential", "read", "self_weight", "shear_loads", "shearable",
+    "shearable_principle", "steepest_descent", "study", "switch", "term", "uniqueness", "vary",
 ]  # fmt: skip
 
 

@@ -14,9 +14,9 @@ def vary(model: Any, name: str, lam: float | None = None) -> Any:
     """The same model at the load lam, with its parameter `name` in the place of the load.
 
     A strut has K, u_hat, phi0 (or k, beta, beta0) and the parameters of its terms. A number is followed itself, a profile
-    by its amplitude, 1 being as given. So are the angle phi1 and the place offset that a held top has, and the "shortening", how far
-    the end is pressed down, whose reaction the load then is (no lam is given). Any other model needs the parameter as an attribute that is a number; its
-    derivative is then taken by differences. `varied.at(value)` is the model with that value.
+    by its amplitude, 1 being as given. So are the angle phi1 and the place offset of a held top; and the "shortening", how far
+    the end is pressed down, whose reaction the load then is, so that no lam is given. Any other model needs the parameter as
+    an attribute that is a number; its derivative is then taken by differences. `varied.at(value)` is the model with that value.
     Raises `ValueError` for a name that the model does not have.
 
     >>> from rodlab.analysis.equilibrium import equilibrium

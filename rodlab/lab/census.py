@@ -36,6 +36,6 @@ def census(model: Equations, lam: tuple[float, float], *, looks: int = 9, start:
 
 
 def _found(model: Any, load: float) -> list[Point]:
-    if isinstance(model, Strut):
+    if isinstance(model, Strut) and not hasattr(model, "unknowns"):
         return list(all_equilibria(model, load).points)
     return deflation(model, load)

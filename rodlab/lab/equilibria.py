@@ -16,6 +16,7 @@ from rodlab.analysis.equilibrium import equilibrium
 from rodlab.analysis.newton import Newton, NoConvergence
 from rodlab.analysis.point import Point
 from rodlab.mechanics.enumerate import CLOSE, Root, cover
+from rodlab.mechanics.held import refuse_held
 from rodlab.mechanics.krawczyk import krawczyk
 from rodlab.mechanics.recurrence import bits, precision
 from rodlab.mechanics.sampled import sampled, too_many
@@ -121,6 +122,7 @@ def all_equilibria(
     """
     if not isinstance(strut, Strut):
         raise ValueError(f"strut must be a Strut; it is {strut!r:.60}")
+    refuse_held("strut", strut)
     lam = number("lam", lam)
     chosen = engine_of(engine)
     if not isinstance(certify, bool):

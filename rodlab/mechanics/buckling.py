@@ -112,9 +112,8 @@ def mode_numbers(model: Any, modes: Any) -> tuple[int, ...]:
     numbers = tuple(sorted({whole("a mode number", j, least=1) for j in asked}))
     if not numbers:
         raise ValueError("modes must name at least one mode; it is empty")
-    struts = not hasattr(model, "mesh")
-    most = getattr(model, "strut", model).n + 1 if struts else MOST
-    most -= struts and "phi0" not in getattr(model, "unknowns", ())
+    own, struts = getattr(model, "strut", model), not hasattr(model, "mesh")
+    most = own.n + ("phi0" in getattr(model, "unknowns", ())) if isinstance(own, Strut) else MOST
     if numbers[-1] > most:
         limit = f"n = {most}, the number of joints" if struts else f"{most}"
         raise ValueError(f"modes must be at most {limit}; it is {numbers[-1]}")
@@ -122,7 +121,7 @@ def mode_numbers(model: Any, modes: Any) -> tuple[int, ...]:
 
 
 def is_plain(model: Any) -> bool:
-    """True for a strut or rod that is clamped and free under no other load, whose loads keep their relative accuracy whatever K."""
+    """True for a strut or rod, clamped and free under no other load, whose loads keep their relative accuracy whatever K."""
     return isinstance(model, (Strut, Rod)) and not model.terms and not hasattr(model, "unknowns")
 
 

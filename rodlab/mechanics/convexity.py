@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rodlab.mechanics.held import refuse_held
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import EPS, number
 from rodlab.numerics.difference import DifferenceForm
@@ -37,6 +38,7 @@ def uniqueness(strut: Strut, lam: float) -> Uniqueness:
     """
     if not isinstance(strut, Strut):
         raise ValueError(f"strut must be a Strut; it is {strut!r:.60}")
+    refuse_held("strut", strut)
     lam = number("lam", lam)
     softest = abs(lam) * strut.joints.h * strut.joints.w
     for term in strut.terms:

@@ -11,8 +11,8 @@ Every strut and rod is the cantilever under its reactions p, which join the angl
 
     V(phi; p) stationary in phi;    V_p = what is given:    -x(1), -phi(1), z(1), or a moment or force that vanishes
 
-Symmetric, with a border of one column a reaction (`rodlab.numerics.constrained`). A reaction whose partner is given is a multiplier:
-the index is that on the directions that keep what is given.
+Symmetric, with a border of one column a reaction (`rodlab.numerics.constrained`). A reaction whose partner is given is a
+multiplier: the index is that on the directions that keep what is given.
 """
 
 from collections.abc import Callable, Mapping
@@ -41,6 +41,12 @@ def checked_ends(ends: Any) -> tuple[str, str]:
     return str(ends[0]), str(ends[1])
 
 
+def refuse_held(name: str, model: Any) -> None:
+    """`ValueError`, in one sentence, for a strut or rod between other ends than clamped and free."""
+    if hasattr(model, "unknowns"):
+        raise ValueError(f"{name} must be clamped at the foot and free at the top for this; its ends are {model.ends}")
+
+
 def needs_reactions(ends: Any, given: Mapping[str, Any]) -> bool:
     """True for other ends than clamped and free, or anything that is held at the top."""
     usual = ends is None or (isinstance(ends, (tuple, list)) and tuple(ends) == CANTILEVER)
@@ -49,7 +55,7 @@ def needs_reactions(ends: Any, given: Mapping[str, Any]) -> bool:
 
 def reactions_of(ends: tuple[str, str], terms: Any) -> tuple[Term, ...]:
     """The terms by which the reactions of the top act, none of which may be given."""
-    foot, top = ends
+    top = ends[1]
     wanted = [END_FORCE] * (top not in SLIDES) + [end_torque(0.0)] * (top not in TURNS)
     for reaction in wanted:
         if any(term.name == reaction.name for term in terms):

@@ -1,6 +1,6 @@
 """The rod between other ends than clamped and free: `rodlab.mechanics.held` on a collocated rod, with its mesh."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from copy import copy
 from typing import Any
 
@@ -17,7 +17,7 @@ from rodlab.numerics.collocated import Collocated
 from rodlab.numerics.collocation import Grid
 
 
-class HeldRod(Held, Rod):
+class HeldRod(Held, Rod):  # type: ignore[misc]  # what no bound is known for is None
     """A rod whose ends are held otherwise; made by `Rod(..., ends=...)`. Unknowns u: its reactions, then the angles at its nodes.
 
     >>> Rod(ends=("clamped", "clamped"))
@@ -47,7 +47,7 @@ class HeldRod(Held, Rod):
     @classmethod
     def around(cls, rod: Rod, ends: tuple[str, str]) -> "HeldRod":
         """A rod that is clamped and free, with a place for reactions."""
-        held = cls.__new__(cls)
+        held = object.__new__(cls)
         held.__dict__.update(rod.fresh().__dict__)
         held._hold(rod.fresh(), ends, 0.0, 0.0)
         held.arguments = {**rod.arguments, **held_arguments(ends, 0.0, 0.0)}
@@ -61,7 +61,7 @@ class HeldRod(Held, Rod):
         return self._said(f"Rod({said_of_rod(self.arguments, self.terms)}")
 
     @property
-    def recipe(self) -> Mapping[str, Any] | None:
+    def recipe(self) -> dict[str, Any] | None:
         """What to write into a file so that `rodlab.mechanics.recipe.build` makes this rod, on this mesh; None for functions."""
         recipe = rod_recipe_of(self.arguments, self.terms)
         return self._recipe(None if recipe is None else {**recipe, "points": self.mesh.tolist()})
@@ -87,7 +87,7 @@ class HeldRod(Held, Rod):
         angles = other.grid.onto(other.grid.nodal(phi, foot), self.grid)
         return np.append(u[: len(self.unknowns)], angles)
 
-    def foot_at(self, u: Array) -> float:
+    def foot_at(self, u: Array) -> float:  # noqa: ARG002
         """The angle of the foot where it is given."""
         return float(self.base.phi0)
 
@@ -106,7 +106,7 @@ class HeldRod(Held, Rod):
         return len(self.unknowns) + (i + 1) * self.degree - 1
 
     def observed(self, u: Array) -> int:
-        """At which interval's end the error of a point is told: the last or, where its angle is held, that of the largest angle."""
+        """At which interval's end a point's error is told: the last or, where its angle is held, that of the largest angle."""
         if "tau" not in self.unknowns:
             return self.grid.N - 1
         return int(np.abs(self.angles(u)[self.degree - 1 :: self.degree]).argmax())
@@ -162,5 +162,5 @@ class HeldRod(Held, Rod):
     def between(self, u: Array, lam: float, s: Array) -> tuple[Array, Array, Array]:
         """phi, x, z at any arclengths s (k,)."""
         fine, v = resolution.corrected(self, u, lam)
-        model, phi, load = fine.acting(v, lam)  # type: ignore[attr-defined]
+        model, phi, load = fine.acting(v, lam)
         return resolution.between(model, phi, load, s)

@@ -1,6 +1,6 @@
 """The strut between other ends than clamped and free: `rodlab.mechanics.held` on a strut."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.inertia import Inertia
 
 
-class HeldStrut(Held, Strut):
+class HeldStrut(Held, Strut):  # type: ignore[misc]  # what no bound is known for is None
     """A strut whose ends are held otherwise; made by `Strut(..., ends=...)`. Unknowns u: its reactions, then its angles.
 
     >>> Strut(n=4, ends=("clamped", "hinged"))
@@ -42,7 +42,7 @@ class HeldStrut(Held, Strut):
     @classmethod
     def around(cls, strut: Strut, ends: tuple[str, str], phi1: float = 0.0, offset: float = 0.0) -> "HeldStrut":
         """The strut of these joints between other ends."""
-        held = cls.__new__(cls)
+        held = object.__new__(cls)
         held.__dict__.update(strut.__dict__)
         terms = (*strut.terms, *reactions_of(ends, strut.terms))
         held._hold(strut.replace(terms=terms) if len(terms) > len(strut.terms) else strut, ends, phi1, offset)
@@ -57,14 +57,14 @@ class HeldStrut(Held, Strut):
         return self._said(f"Strut({said_of(self.arguments, self.n, self.terms)}")
 
     @property
-    def recipe(self) -> Mapping[str, Any] | None:
+    def recipe(self) -> dict[str, Any] | None:
         """What to write into a file so that `rodlab.mechanics.recipe.build` makes this strut again; None for functions."""
         return self._recipe(recipe_of(self.arguments, self.terms))
 
     # --- what a point asks -------------------------------------------------------------------------------------------
 
     def inertia(self, u: Array, value: float) -> Inertia:
-        """Signs of the eigenvalues of the second variation on the directions that keep what is given, for all solutions near u."""
+        """Signs of the eigenvalues of the second variation on the directions that keep what is given, for all states near u."""
         matrix = self.jacobian(u, value)
         model, phi, lam = self.acting(u, value)
         with np.errstate(all="ignore"):

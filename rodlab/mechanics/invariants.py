@@ -48,7 +48,7 @@ def invariants(p: Any) -> Invariants:
     (True, True, True)
     """
     rod = p.equations
-    if not isinstance(rod, Rod) or rod.varies or rod.terms or rod.phi0:
+    if not isinstance(rod, Rod) or rod.varies or rod.terms or rod.phi0 or hasattr(rod, "unknowns"):
         raise ValueError(f"p must be a point of a uniform rod without terms, clamped upright; its model is {rod!r:.80}")
     K, u_hat, lam = float(rod.parameters["K"]), float(rod.parameters["u_hat"]), p.lam
     phi, m = mesh_values(rod, p.u, lam)

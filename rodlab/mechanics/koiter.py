@@ -29,6 +29,7 @@ from sympy.polys.polyerrors import BasePolynomialError
 from sympy.polys.ring_series import rs_mul
 from sympy.polys.rings import PolyElement, ring
 
+from rodlab.mechanics.held import refuse_held
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import EPS, whole
 
@@ -161,6 +162,7 @@ def gradient_of(strut: Strut) -> Gradient:
     """The gradient that SymPy derives for this strut, its numbers put in as rationals."""
     if not isinstance(strut, Strut):
         raise ValueError(f"strut must be a Strut; it is {strut!r:.60}")
+    refuse_held("strut", strut)
     if strut.n > MOST:
         raise ValueError(f"n must be at most {MOST} for closed forms; it is {strut.n} (rl.expansion has the numbers for every n)")
     if not strut.is_straight:

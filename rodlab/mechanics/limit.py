@@ -9,7 +9,8 @@
     H = m phi' - W                    constant where neither K nor u_hat depends on s
 
 A term of the place leaves W_x and W_z, forces on a unit of length. Their sums from s to the end, Q1 and Q3, turn the rod besides:
-m' = W_phi + Q1 cos phi - Q3 sin phi,  Q1' = -W_x,  Q3' = -W_z: where these depend on x and z the balance of forces does not decouple.
+m' = W_phi + Q1 cos phi - Q3 sin phi,  Q1' = -W_x,  Q3' = -W_z. Where these depend on x and z the balance of forces does not
+decouple.
 
 Nothing is typed again: a term that a strut can carry gives the rod its own density, and that the kernel of the rod.
 """

@@ -62,8 +62,8 @@ def discrete(terms: "Sequence[Term]", n: int, *, upright: bool) -> Balance:
 def continuous(limit: "Limit") -> Balance:
     """The rod, whose density without the load is the bending of the principle.
 
-    Forces on the length that are given, a weight, leave N1 and N3 known; where they depend on the place, a foundation, the balance
-    of forces does not decouple, and they stay unknown.
+    Forces on the length that are given, a weight, leave N1 and N3 known; where they depend on the place, a foundation, the
+    balance of forces does not decouple, and they stay unknown.
     """
     s, t, lam = (Symbol(name, real=True) for name in ("s", "t", "lambda"))
     phi, x, z, N1, N3 = (Function(name)(s) for name in ("phi", "x", "z", "N1", "N3"))

@@ -71,7 +71,7 @@ class Places:
         return np.asarray(np.sin(phi) * self.carried(X) + np.cos(phi) * self.carried(Z))
 
     def anchored(self, local: Any, phi: Array, xx: Any, xz: Any, zz: Any) -> Anchored:
-        """The Hessian `local` and J^T diag(e'') J, from forces that change with the place; z left out where none change with it."""
+        """The Hessian `local` and J^T diag(e'') J, of forces that change with the place; without z where none change with it."""
         used = 1 if all(np.ndim(e) == 0 and e == 0 for e in (xz, zz)) else 2
         turn = np.stack([np.cos(phi), -np.sin(phi)])[:used]
         lower = np.zeros_like(turn)

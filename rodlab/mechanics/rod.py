@@ -45,7 +45,8 @@ class Rod:
 
     K, u_hat: a number, a function of an array s, or an expression in s; jumps and kinks are found, those narrower than a
     hundredth must be declared in `breaks`; either are points of every mesh. degree: of the polynomials, order 2 degree.
-    terms, ends, phi1, offset: as of a strut. mesh: a number of intervals or points from 0 to 1; None adapts it so that the angles at mesh points are right to `tol`.
+    mesh: a number of intervals or points from 0 to 1; None adapts it so that the angles at mesh points are right to `tol`.
+    terms, ends, phi1, offset: as of a strut.
     Raises `ValueError`, in one sentence, for whatever is not of this form.
 
     >>> rod = Rod(K="1 + s", u_hat=0.5)
@@ -73,9 +74,9 @@ class Rod:
         mesh: Any = None,
         tol: float = 1e-10,
         terms: Sequence[Term] = (),
-        ends: tuple[str, str] = CANTILEVER,
-        phi1: float = 0.0,
-        offset: float = 0.0,
+        ends: tuple[str, str] = CANTILEVER,  # noqa: ARG002  `__new__` saw to them
+        phi1: float = 0.0,  # noqa: ARG002
+        offset: float = 0.0,  # noqa: ARG002
     ) -> None:
         self.arguments = kept(
             {"K": K, "u_hat": u_hat, "phi0": phi0, "breaks": breaks, "degree": degree, "mesh": mesh, "tol": tol, "terms": terms}
@@ -396,7 +397,7 @@ class Rod:
         """The place in u of the angle at the upper end of interval i."""
         return (i + 1) * self.degree - 1
 
-    def observed(self, u: Array) -> int:
+    def observed(self, u: Array) -> int:  # noqa: ARG002
         """At which interval's end the error of a point is told: the last."""
         return self.grid.N - 1
 

@@ -3,8 +3,8 @@
     x_ic = x_i + h_i sum_d A_cd sin(phi_id)         Gauss's points c of interval i; x_{i+1} the same with b
     Q_id = sum_c A_cd W_ic / b_d + sum_{k > i} W_k    what forces W = h b X on all points above leave to be carried at one
 
-the adjoint of the first, which is again Gauss's collocation of Q' = -X, Q(1) = 0 [Hager 2000; Sanz-Serna 2016]: x, z and the forces
-are as accurate as the angles. The moment on a point is cos(phi) Q1 - sin(phi) Q3, as for a strut (`rodlab.mechanics.places`).
+the adjoint of the first, which is again Gauss's collocation of Q' = -X, Q(1) = 0 [Hager 2000; Sanz-Serna 2016]: x, z and the
+forces are as accurate as the angles. The moment on a point is cos(phi) Q1 - sin(phi) Q3, as for a strut (`places`).
 """
 
 from typing import TYPE_CHECKING, Any
@@ -50,7 +50,7 @@ def forces(rod: "Rod", angle: Array, grid: Grid) -> tuple[Array, Array]:
 
 
 def hardening(rod: "Rod", angle: Array) -> Array:
-    """The part of the second variation from forces that change with the place, over all nodes, the foot's first: (N m + 1,) squared."""
+    """The part of the second variation from forces that change with the place, over all nodes: (N m + 1, N m + 1)."""
     grid, W = rod.grid, rod.kernel()
     if rod.size > MOST:
         raise ValueError(f"a rod whose terms couple all angles must have at most {MOST} unknowns; on this mesh it has {rod.size}")

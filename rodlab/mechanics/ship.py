@@ -46,7 +46,7 @@ def _derived(more: tuple[Term, ...]) -> list[LinkDerivation]:
 
 
 def _text(links: Sequence[LinkDerivation], limits: Sequence[Limit], again: dict[str, str]) -> str:
-    classes = "\n\n".join(each.source for each in [*links, *limits])
+    classes = "\n\n".join([*(link.source for link in links), *(known.source for known in limits)])
     names = {d.name: d.name for d in links} | again
     tables = (("KERNELS", names), ("DENSITIES", {known.name: known.name for known in limits}))
     listed = "\n".join(

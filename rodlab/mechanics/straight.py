@@ -6,8 +6,8 @@ A load is isolated by the index, which tells how many lie below p, and found by 
 
     w <- M(p)^{-1} M'(p) w,    p <- p - w . M(p) w / w . M'(p) w            [Lancaster 1961; cubic, M symmetric]
 
-M is linear in p, or quadratic where the rod shears and extends: its derivative by a central difference is exact. O(n) a load; of a
-rod also what a companion of eight degrees more changes, on meshes halved until that is small.
+M is linear in p, or quadratic where the rod shears and extends: its derivative by a central difference is exact. O(n) a load; of
+a rod also what a companion of eight degrees more changes, on meshes halved until that is small.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -39,11 +39,11 @@ class Load(NamedTuple):
 
 
 class Bracket(NamedTuple):
-    """Between low and high the index passes from index - 1 to `index`, upwards (rises 1) or back (-1)."""
+    """Between low and high the index passes from passed - 1 to `passed`, upwards (rises 1) or back (-1)."""
 
     low: float
     high: float
-    index: int
+    passed: int
     rises: int
 
 
@@ -97,7 +97,7 @@ class Straight:
 
 
 def straight_loads(model: Any, numbers: Sequence[int]) -> Iterator[Load]:
-    """The loads of these numbers, ascending. Raises `ValueError` where there are not so many, `ArithmeticError` where rounding hides one."""
+    """The loads of these numbers, ascending. `ValueError` where there are not so many, `ArithmeticError` for one not resolved."""
     if hasattr(model, "mesh"):
         yield from _of_rod(model, numbers)
         return
@@ -217,7 +217,7 @@ class _Looked:
             last, before = float(p), here
         if number > len(found):
             raise ValueError(
-                f"modes must be at most {len(found)}, the number of loads below {self.limit:g}, which would crush the rod; it is {number}"
+                f"modes must be at most {len(found)}, the number of loads below {self.limit:g}, which crushes the rod; it is {number}"
             )
         return found[number - 1]
 

@@ -69,9 +69,9 @@ class Strut:
         phi0: float = 0.0,
         breaks: Sequence[float] = (),
         terms: Sequence[Term] = (),
-        ends: tuple[str, str] = CANTILEVER,
-        phi1: float = 0.0,
-        offset: float = 0.0,
+        ends: tuple[str, str] = CANTILEVER,  # noqa: ARG002  `__new__` saw to them
+        phi1: float = 0.0,  # noqa: ARG002
+        offset: float = 0.0,  # noqa: ARG002
     ) -> None:
         self.arguments = kept({"n": n, "K": K, "u_hat": u_hat, "rule": rule, "phi0": phi0, "breaks": breaks, "terms": terms})
         self._build(joints_of.by_rule(n, K, u_hat, rule, phi0, breaks), terms, breaks)
@@ -224,7 +224,8 @@ class Strut:
     def hessian(self, phi: Any, lam: float) -> DifferenceForm | Tridiagonal | Anchored:
         """d2V/dphi2: `.diagonal`, `.off_diagonal`, `.toarray()`, `.index`, `.solve(b)`; symmetric.
 
-        Tridiagonal; with a term quadratic in the place (a foundation) full, but known by O(n) numbers (`rodlab.numerics.anchored`).
+        Tridiagonal; with forces that change with the place (a foundation) full, but known by O(n) numbers
+        (`rodlab.numerics.anchored`).
         """
         return self.jacobian(*self._state(phi, lam))
 

@@ -42,7 +42,7 @@ def foot(strut: "Strut", lam: float) -> Foot:
     if j.last_weight == 1:
         return Foot()
     at = {**strut.at_foot, "h": j.h, "w": 1 - j.last_weight, "k": 0.0, "beta": 0.0}
-    given = {name: at.get(name, strut.parameters.get(name)) for name in link.parameters}
+    given: dict[str, Any] = {name: at.get(name, strut.parameters.get(name)) for name in link.parameters}
     angle, place = np.full(1, j.phi0), (np.full(1, strut.x0), np.zeros(1))
     _, above, below = link.stiffness(angle, angle, lam, **given)
     pushed = link.moments_N1(angle, angle, lam, **given)[1] if "N1" in link.parameters else 0.0
@@ -63,10 +63,8 @@ def reach(strut: "Strut", u: Array, lam: float) -> tuple[Array, Array]:
     """x, z of the joints 1..n from the foot: what the links reach, those of a strut that shears and extends as well."""
     link, own = strut.kernel(), foot(strut, lam)
     parts = link.reach(strut.below(u), u, lam, **strut.given(link))
-    return tuple(
-        strut.places.along(full(part, strut.n), first) + x
-        for part, first, x in zip(parts, own.reach, (strut.x0, 0.0), strict=True)
-    )  # type: ignore[return-value]
+    x, z = (strut.places.along(full(part, strut.n), first) for part, first in zip(parts, own.reach, strict=True))
+    return x + strut.x0, z
 
 
 def boundary(strut: "Strut", name: str, u: Array, lam: float) -> float:

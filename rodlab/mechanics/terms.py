@@ -157,7 +157,8 @@ def checked(terms: Any) -> tuple[Term, ...]:
     for term in given:
         if not isinstance(term, Term):
             raise ValueError(
-                f"terms must be made by self_weight, foundation, end_torque, end_force, shearable, potential or term; one is {term!r}"
+                "terms must be made by self_weight, foundation, end_torque, end_force, shearable, potential or term;"
+                f" one is {term!r}"
             )
         for name in term.parameters:
             if name.startswith("_") or keyword.iskeyword(name) or hasattr(np, name) or re.fullmatch(r"t\d+", name):

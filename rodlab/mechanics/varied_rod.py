@@ -13,7 +13,6 @@ from rodlab.mechanics import bounds, remesh
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.terms import BENDING_WITH_REST, END_LOAD
 from rodlab.numerics.arrays import Array, number
-from rodlab.numerics.collocated import Collocated
 from rodlab.numerics.collocation import Grid
 from rodlab.numerics.inertia import Inertia
 
@@ -138,7 +137,7 @@ class VariedRod:
         """The same to more digits."""
         return self.sharing(value).residual_wide(u, self.lam)
 
-    def jacobian(self, u: Array, value: float) -> Collocated:
+    def jacobian(self, u: Array, value: float) -> Any:
         """The Hessian."""
         return self.sharing(value).jacobian(u, self.lam)
 

@@ -182,7 +182,7 @@ class Grid:
         return Collocated(blocks.reshape(-1, n, n), self.layout)
 
     def quadratic(self, k: Any, mixed: Any, soft: Any, x: Array) -> tuple[float, float]:
-        """x . A x of the second variation with these coefficients, and a bound on its rounding: no stiffness cancels in its sums."""
+        """x . A x of the second variation with these coefficients, and a bound on its rounding: no stiffness cancels."""
         Y = self.nodal(x, 0.0)
         value, slope = self.at_gauss(Y)
         bending, rest = self.hb * k * slope**2, self.hb * (2 * mixed * slope * value + soft * value**2)

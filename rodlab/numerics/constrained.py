@@ -3,8 +3,8 @@
     [ D   B^T ] [p]       p (m,)   multipliers first, c of them, then other unknowns of their own
     [ B   A   ] [y]       y (n,)   A banded or full, known by its own factor
 
-Second variation of V(y; p), stationary in all: where p_j is a multiplier its row says B_j . y = 0, and the index of V on the y that
-obey it is that of the whole matrix less c [Haynsworth 1968; Maddocks 1987: constrained quadratic forms]:
+Second variation of V(y; p), stationary in all: where p_j is a multiplier its row says B_j . y = 0, and the index of V on the y
+that obey it is that of the whole matrix less c [Haynsworth 1968; Maddocks 1987: constrained quadratic forms]:
 
     index = index(A) + index(D - B^T A^{-1} B) - c
 """
@@ -38,7 +38,7 @@ class Constrained(Symmetric):
     @property
     def width(self) -> int:
         """m."""
-        return self.corner.shape[0]
+        return int(self.corner.shape[0])
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -105,14 +105,16 @@ class Constrained(Symmetric):
         return known.negative if known.verified else None
 
     def _negative(self, slack: Array | float, side: int) -> tuple[int, int]:
-        """Least and most negative eigenvalues with A raised (side 1) or lowered (-1) by the slack and as far as A needs to be clear."""
+        """Least and most negative eigenvalues with A raised (side 1) or lowered (-1) by the slack, and until A is clear."""
         small = EPS * float(np.abs(self._size).max())
+        known, moved = Inertia(0, self.width, 0), self.matrix
         for nudge in NUDGES:
             moved = (
                 self.matrix if not (np.any(slack) or nudge > 1) else shifted(self.matrix, side * (slack + (nudge - 1) * small))
             )
-            known = inertia_of(moved)
-            assert known is not None
+            found = inertia_of(moved)
+            assert found is not None
+            known = found
             if known.verified:
                 break
         low, high = self._small(moved)

@@ -1,9 +1,9 @@
 """Negative eigenvalues of a symmetric block tridiagonal matrix, counted safely: cyclic reduction, in log2 n steps of numpy.
 
-Every second block S is eliminated at once, its eigenvalues counted, and its neighbours take -B S^{-1} B^T [Haynsworth 1968]; then of
-those left every second, ... By themselves the blocks eliminated are short cantilevers, but in the last few steps, so that S is
-seldom near singular. Whatever rounding may do to a block is taken from its diagonal, or added to it, before its eigenvalues are
-counted: the counts are of matrices below and above the exact one (Loewner's order), so that they hold its index between them.
+Every second block S is eliminated at once, its eigenvalues counted, and its neighbours take -B S^{-1} B^T [Haynsworth 1968];
+then of those left every second, ... By themselves the blocks eliminated are short cantilevers, but in the last few steps, so
+that S is seldom near singular. Whatever rounding may do to a block is taken from its diagonal, or added to it, before its eigenvalues
+are counted: the counts are of matrices below and above the exact one (Loewner's order), which hold its index between them.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ NEAR = 32 * EPS**0.5  # a block nearer to singular is moved away: that costs les
 
 
 def counted_by_elimination(S: Array, B: Array, side: int) -> int:
-    """Negative eigenvalues of the blocks S (n, p, p), each joined by B (n, p, p) to the one below: at most (side 1), or at least (-1).
+    """Negative eigenvalues of blocks S (n, p, p), each joined by B (n, p, p) to the one below: at most (side 1), at least (-1).
 
     >>> S, B = np.full((3, 1, 1), 2.0), np.full((3, 1, 1), -1.0)
     >>> counted_by_elimination(S - 1.0, B, 1), counted_by_elimination(S - 1.0, B, -1)      # eigenvalues 1 and 1 -+ sqrt 2
