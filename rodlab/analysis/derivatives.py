@@ -48,7 +48,8 @@ def check_derivatives(model: Equations, u: Array, lam: float) -> None:
             except (ValueError, ArithmeticError):
                 finite = False
         if finite:
-            _check(model, at, lam, rng.uniform(-1, 1, u.size))
+            size = 1 + np.abs(at)  # angles beside forces: each is moved by a part of its own size
+            _check(model, at, lam, size / size.max(initial=1.0) * rng.uniform(-1, 1, u.size))
             return
 
 

@@ -21,6 +21,7 @@ class Kernel(Protocol):
     parameters: tuple[str, ...]
     places: bool
     hardens: bool
+    yields: bool
 
     def energy(self, *angles: Any, **parameters: Any) -> Any: ...
     def moments(self, a: Array, b: Array, lam: float, **parameters: Any) -> Any: ...

@@ -64,6 +64,8 @@ def second(rod: "Rod", one: str, other: str, u: Array, lam: float) -> float:
         return -1.0
     W, grid = rod.kernel(), rod.grid
     angle, slope = rod.at_gauss(u)
+    if pair <= set(FORCES) and not W.yields:
+        return 0.0
     if pair <= set(FORCES):
         which = len(pair - {"lam"}) + (one == other == "N1")
         return float(np.sum(grid.hb * W.yielding(slope, angle, lam, **rod.given(W))[which]))

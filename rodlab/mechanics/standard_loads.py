@@ -14,30 +14,30 @@ Value = Any  # a float or an array (n,): what numpy makes of the parameters give
 class bending_and_end_load_and_end_force:
     """e = -N1*h*sin(b) + h*lam*cos(b) + k*(-a + b)**2/2"""
 
-    parameters = ("N1", "h", "k")
+    parameters = ('N1', 'h', 'k')
     places = False
     hardens = False
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value) -> Value:
-        return h * lam * cos(b) + (1 / 2) * k * (b - a) ** 2 - N1 * h * sin(b)
+        return h*lam*cos(b) + (1/2)*k*(b - a)**2 - N1*h*sin(b)
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return k * (b - a), -h * (N1 * cos(b) + lam * sin(b))
+        return k*(b - a), -h*(N1*cos(b) + lam*sin(b))
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
-        return k, h * (lam * cos(b) - N1 * sin(b)), 0.0
+        return k, h*(lam*cos(b) - N1*sin(b)), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return 0.0, -h * sin(b)
+        return 0.0, -h*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return h * sin(b), h * cos(b)
+        return h*sin(b), h*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
@@ -45,7 +45,7 @@ class bending_and_end_load_and_end_force:
 
     @staticmethod
     def moments_N1(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return 0.0, -h * cos(b)
+        return 0.0, -h*cos(b)
 
     @staticmethod
     def moments_k(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value) -> tuple[Value, Value]:
@@ -55,32 +55,32 @@ class bending_and_end_load_and_end_force:
 class bending_and_end_load_and_end_force_weighted:
     """e = -N1*h*w*sin(b) + h*lam*w*cos(b) + k*(-a + b)**2/2"""
 
-    parameters = ("N1", "h", "k", "w")
+    parameters = ('N1', 'h', 'k', 'w')
     places = False
     hardens = False
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, w: Value) -> Value:
-        t0 = h * w
-        return (1 / 2) * k * (b - a) ** 2 + lam * t0 * cos(b) - N1 * t0 * sin(b)
+        t0 = h*w
+        return (1/2)*k*(b - a)**2 + lam*t0*cos(b) - N1*t0*sin(b)
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return k * (b - a), -h * w * (N1 * cos(b) + lam * sin(b))
+        return k*(b - a), -h*w*(N1*cos(b) + lam*sin(b))
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
-        return k, h * w * (lam * cos(b) - N1 * sin(b)), 0.0
+        return k, h*w*(lam*cos(b) - N1*sin(b)), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * sin(b)
+        return 0.0, -h*w*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        t0 = h * w
-        return t0 * sin(b), t0 * cos(b)
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
@@ -88,7 +88,7 @@ class bending_and_end_load_and_end_force_weighted:
 
     @staticmethod
     def moments_N1(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * cos(b)
+        return 0.0, -h*w*cos(b)
 
     @staticmethod
     def moments_k(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
@@ -98,30 +98,30 @@ class bending_and_end_load_and_end_force_weighted:
 class bending_with_rest_and_end_load_and_end_force:
     """e = -N1*h*sin(b) + h*lam*cos(b) + k*(-a + b - beta)**2/2"""
 
-    parameters = ("N1", "beta", "h", "k")
+    parameters = ('N1', 'beta', 'h', 'k')
     places = False
     hardens = False
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value) -> Value:
-        return h * lam * cos(b) + (1 / 2) * k * (b - a - beta) ** 2 - N1 * h * sin(b)
+        return h*lam*cos(b) + (1/2)*k*(b - a - beta)**2 - N1*h*sin(b)
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return k * (b - a - beta), -h * (N1 * cos(b) + lam * sin(b))
+        return k*(b - a - beta), -h*(N1*cos(b) + lam*sin(b))
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
-        return k, h * (lam * cos(b) - N1 * sin(b)), 0.0
+        return k, h*(lam*cos(b) - N1*sin(b)), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return 0.0, -h * sin(b)
+        return 0.0, -h*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return h * sin(b), h * cos(b)
+        return h*sin(b), h*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
@@ -129,7 +129,7 @@ class bending_with_rest_and_end_load_and_end_force:
 
     @staticmethod
     def moments_N1(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return 0.0, -h * cos(b)
+        return 0.0, -h*cos(b)
 
     @staticmethod
     def moments_beta(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value) -> tuple[Value, Value]:
@@ -143,44 +143,40 @@ class bending_with_rest_and_end_load_and_end_force:
 class bending_with_rest_and_end_load_and_end_force_weighted:
     """e = -N1*h*w*sin(b) + h*lam*w*cos(b) + k*(-a + b - beta)**2/2"""
 
-    parameters = ("N1", "beta", "h", "k", "w")
+    parameters = ('N1', 'beta', 'h', 'k', 'w')
     places = False
     hardens = False
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, w: Value) -> Value:
-        t0 = h * w
-        return (1 / 2) * k * (b - a - beta) ** 2 + lam * t0 * cos(b) - N1 * t0 * sin(b)
+        t0 = h*w
+        return (1/2)*k*(b - a - beta)**2 + lam*t0*cos(b) - N1*t0*sin(b)
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return k * (b - a - beta), -h * w * (N1 * cos(b) + lam * sin(b))
+        return k*(b - a - beta), -h*w*(N1*cos(b) + lam*sin(b))
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * w * (lam * cos(b) - N1 * sin(b)), 0.0
+    def stiffness(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
+        return k, h*w*(lam*cos(b) - N1*sin(b)), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * sin(b)
+        return 0.0, -h*w*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        t0 = h * w
-        return t0 * sin(b), t0 * cos(b)
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
+    def yielding(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
         return 0.0, 0.0, 0.0
 
     @staticmethod
     def moments_N1(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * cos(b)
+        return 0.0, -h*w*cos(b)
 
     @staticmethod
     def moments_beta(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
@@ -194,7 +190,7 @@ class bending_with_rest_and_end_load_and_end_force_weighted:
 class bending_and_end_load_and_end_torque:
     """e = h*lam*cos(b) + k*(-a + b)**2/2 - tau*(-a + b)"""
 
-    parameters = ("h", "k", "tau")
+    parameters = ('h', 'k', 'tau')
     places = False
     hardens = False
     yields = False
@@ -202,23 +198,23 @@ class bending_and_end_load_and_end_torque:
     @staticmethod
     def energy(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value) -> Value:
         t0 = b - a
-        return h * lam * cos(b) + (1 / 2) * k * t0**2 - t0 * tau
+        return h*lam*cos(b) + (1/2)*k*t0**2 - t0*tau
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return -k * (a - b) - tau, -h * lam * sin(b)
+        return -k*(a - b) - tau, -h*lam*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value) -> tuple[Value, Value, Value]:
-        return k, h * lam * cos(b), 0.0
+        return k, h*lam*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return 0.0, -h * sin(b)
+        return 0.0, -h*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return h * sin(b), h * cos(b)
+        return h*sin(b), h*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value) -> tuple[Value, Value, Value]:
@@ -236,7 +232,7 @@ class bending_and_end_load_and_end_torque:
 class bending_and_end_load_and_end_torque_weighted:
     """e = h*lam*w*cos(b) + k*(-a + b)**2/2 - tau*(-a + b)"""
 
-    parameters = ("h", "k", "tau", "w")
+    parameters = ('h', 'k', 'tau', 'w')
     places = False
     hardens = False
     yields = False
@@ -244,24 +240,24 @@ class bending_and_end_load_and_end_torque_weighted:
     @staticmethod
     def energy(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value, w: Value) -> Value:
         t0 = b - a
-        return h * lam * w * cos(b) + (1 / 2) * k * t0**2 - t0 * tau
+        return h*lam*w*cos(b) + (1/2)*k*t0**2 - t0*tau
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
-        return -k * (a - b) - tau, -h * lam * w * sin(b)
+        return -k*(a - b) - tau, -h*lam*w*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value, Value]:
-        return k, h * lam * w * cos(b), 0.0
+        return k, h*lam*w*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * sin(b)
+        return 0.0, -h*w*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
-        t0 = h * w
-        return t0 * sin(b), t0 * cos(b)
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value, Value]:
@@ -279,7 +275,7 @@ class bending_and_end_load_and_end_torque_weighted:
 class bending_with_rest_and_end_load_and_end_torque:
     """e = h*lam*cos(b) + k*(-a + b - beta)**2/2 - tau*(-a + b)"""
 
-    parameters = ("beta", "h", "k", "tau")
+    parameters = ('beta', 'h', 'k', 'tau')
     places = False
     hardens = False
     yields = False
@@ -287,23 +283,23 @@ class bending_with_rest_and_end_load_and_end_torque:
     @staticmethod
     def energy(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value) -> Value:
         t0 = a - b
-        return h * lam * cos(b) + (1 / 2) * k * (-beta - t0) ** 2 + t0 * tau
+        return h*lam*cos(b) + (1/2)*k*(-beta - t0)**2 + t0*tau
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return -k * (a + beta - b) - tau, -h * lam * sin(b)
+        return -k*(a + beta - b) - tau, -h*lam*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value, Value]:
-        return k, h * lam * cos(b), 0.0
+        return k, h*lam*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return 0.0, -h * sin(b)
+        return 0.0, -h*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return h * sin(b), h * cos(b)
+        return h*sin(b), h*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value, Value]:
@@ -325,7 +321,7 @@ class bending_with_rest_and_end_load_and_end_torque:
 class bending_with_rest_and_end_load_and_end_torque_weighted:
     """e = h*lam*w*cos(b) + k*(-a + b - beta)**2/2 - tau*(-a + b)"""
 
-    parameters = ("beta", "h", "k", "tau", "w")
+    parameters = ('beta', 'h', 'k', 'tau', 'w')
     places = False
     hardens = False
     yields = False
@@ -333,37 +329,31 @@ class bending_with_rest_and_end_load_and_end_torque_weighted:
     @staticmethod
     def energy(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> Value:
         t0 = a - b
-        return h * lam * w * cos(b) + (1 / 2) * k * (-beta - t0) ** 2 + t0 * tau
+        return h*lam*w*cos(b) + (1/2)*k*(-beta - t0)**2 + t0*tau
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
-        return -k * (a + beta - b) - tau, -h * lam * w * sin(b)
+        return -k*(a + beta - b) - tau, -h*lam*w*sin(b)
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * lam * w * cos(b), 0.0
+    def stiffness(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value, Value]:
+        return k, h*lam*w*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * sin(b)
+        return 0.0, -h*w*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
-        t0 = h * w
-        return t0 * sin(b), t0 * cos(b)
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
+    def yielding(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value, Value]:
         return 0.0, 0.0, 0.0
 
     @staticmethod
-    def moments_beta(
-        a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value]:
+    def moments_beta(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
         return -k, 0.0
 
     @staticmethod
@@ -378,7 +368,7 @@ class bending_with_rest_and_end_load_and_end_torque_weighted:
 class bending_and_end_load_and_end_force_and_end_torque:
     """e = -N1*h*sin(b) + h*lam*cos(b) + k*(-a + b)**2/2 - tau*(-a + b)"""
 
-    parameters = ("N1", "h", "k", "tau")
+    parameters = ('N1', 'h', 'k', 'tau')
     places = False
     hardens = False
     yields = False
@@ -386,23 +376,23 @@ class bending_and_end_load_and_end_force_and_end_torque:
     @staticmethod
     def energy(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value) -> Value:
         t0 = b - a
-        return h * lam * cos(b) + (1 / 2) * k * t0**2 - N1 * h * sin(b) - t0 * tau
+        return h*lam*cos(b) + (1/2)*k*t0**2 - N1*h*sin(b) - t0*tau
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return -k * (a - b) - tau, -h * (N1 * cos(b) + lam * sin(b))
+        return -k*(a - b) - tau, -h*(N1*cos(b) + lam*sin(b))
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value, Value]:
-        return k, h * (lam * cos(b) - N1 * sin(b)), 0.0
+        return k, h*(lam*cos(b) - N1*sin(b)), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return 0.0, -h * sin(b)
+        return 0.0, -h*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return h * sin(b), h * cos(b)
+        return h*sin(b), h*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value, Value]:
@@ -410,7 +400,7 @@ class bending_and_end_load_and_end_force_and_end_torque:
 
     @staticmethod
     def moments_N1(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return 0.0, -h * cos(b)
+        return 0.0, -h*cos(b)
 
     @staticmethod
     def moments_k(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
@@ -424,7 +414,7 @@ class bending_and_end_load_and_end_force_and_end_torque:
 class bending_and_end_load_and_end_force_and_end_torque_weighted:
     """e = -N1*h*w*sin(b) + h*lam*w*cos(b) + k*(-a + b)**2/2 - tau*(-a + b)"""
 
-    parameters = ("N1", "h", "k", "tau", "w")
+    parameters = ('N1', 'h', 'k', 'tau', 'w')
     places = False
     hardens = False
     yields = False
@@ -432,36 +422,32 @@ class bending_and_end_load_and_end_force_and_end_torque_weighted:
     @staticmethod
     def energy(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value, w: Value) -> Value:
         t0 = b - a
-        return h * lam * w * cos(b) + (1 / 2) * k * t0**2 - N1 * h * w * sin(b) - t0 * tau
+        return h*lam*w*cos(b) + (1/2)*k*t0**2 - N1*h*w*sin(b) - t0*tau
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
-        return -k * (a - b) - tau, -h * w * (N1 * cos(b) + lam * sin(b))
+        return -k*(a - b) - tau, -h*w*(N1*cos(b) + lam*sin(b))
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * w * (lam * cos(b) - N1 * sin(b)), 0.0
+    def stiffness(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value, Value]:
+        return k, h*w*(lam*cos(b) - N1*sin(b)), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * sin(b)
+        return 0.0, -h*w*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
-        t0 = h * w
-        return t0 * sin(b), t0 * cos(b)
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
+    def yielding(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value, Value]:
         return 0.0, 0.0, 0.0
 
     @staticmethod
     def moments_N1(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * cos(b)
+        return 0.0, -h*w*cos(b)
 
     @staticmethod
     def moments_k(a: Array, b: Array, lam: float, N1: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
@@ -475,7 +461,7 @@ class bending_and_end_load_and_end_force_and_end_torque_weighted:
 class bending_with_rest_and_end_load_and_end_force_and_end_torque:
     """e = -N1*h*sin(b) + h*lam*cos(b) + k*(-a + b - beta)**2/2 - tau*(-a + b)"""
 
-    parameters = ("N1", "beta", "h", "k", "tau")
+    parameters = ('N1', 'beta', 'h', 'k', 'tau')
     places = False
     hardens = False
     yields = False
@@ -483,42 +469,34 @@ class bending_with_rest_and_end_load_and_end_force_and_end_torque:
     @staticmethod
     def energy(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value) -> Value:
         t0 = a - b
-        return h * lam * cos(b) + (1 / 2) * k * (-beta - t0) ** 2 + t0 * tau - N1 * h * sin(b)
+        return h*lam*cos(b) + (1/2)*k*(-beta - t0)**2 + t0*tau - N1*h*sin(b)
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return -k * (a + beta - b) - tau, -h * (N1 * cos(b) + lam * sin(b))
+        return -k*(a + beta - b) - tau, -h*(N1*cos(b) + lam*sin(b))
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * (lam * cos(b) - N1 * sin(b)), 0.0
+    def stiffness(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value, Value]:
+        return k, h*(lam*cos(b) - N1*sin(b)), 0.0
 
     @staticmethod
-    def moments_lam(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, -h * sin(b)
+    def moments_lam(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
+        return 0.0, -h*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return h * sin(b), h * cos(b)
+        return h*sin(b), h*cos(b)
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value
-    ) -> tuple[Value, Value, Value]:
+    def yielding(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value, Value]:
         return 0.0, 0.0, 0.0
 
     @staticmethod
     def moments_N1(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
-        return 0.0, -h * cos(b)
+        return 0.0, -h*cos(b)
 
     @staticmethod
-    def moments_beta(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value
-    ) -> tuple[Value, Value]:
+    def moments_beta(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
         return -k, 0.0
 
     @staticmethod
@@ -526,16 +504,14 @@ class bending_with_rest_and_end_load_and_end_force_and_end_torque:
         return b - a - beta, 0.0
 
     @staticmethod
-    def moments_tau(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value
-    ) -> tuple[Value, Value]:
+    def moments_tau(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value) -> tuple[Value, Value]:
         return -1.0, 0.0
 
 
 class bending_with_rest_and_end_load_and_end_force_and_end_torque_weighted:
     """e = -N1*h*w*sin(b) + h*lam*w*cos(b) + k*(-a + b - beta)**2/2 - tau*(-a + b)"""
 
-    parameters = ("N1", "beta", "h", "k", "tau", "w")
+    parameters = ('N1', 'beta', 'h', 'k', 'tau', 'w')
     places = False
     hardens = False
     yields = False
@@ -543,91 +519,73 @@ class bending_with_rest_and_end_load_and_end_force_and_end_torque_weighted:
     @staticmethod
     def energy(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> Value:
         t0 = a - b
-        return h * lam * w * cos(b) + (1 / 2) * k * (-beta - t0) ** 2 + t0 * tau - N1 * h * w * sin(b)
+        return h*lam*w*cos(b) + (1/2)*k*(-beta - t0)**2 + t0*tau - N1*h*w*sin(b)
 
     @staticmethod
-    def moments(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return -k * (a + beta - b) - tau, -h * w * (N1 * cos(b) + lam * sin(b))
+    def moments(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
+        return -k*(a + beta - b) - tau, -h*w*(N1*cos(b) + lam*sin(b))
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * w * (lam * cos(b) - N1 * sin(b)), 0.0
+    def stiffness(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value, Value]:
+        return k, h*w*(lam*cos(b) - N1*sin(b)), 0.0
 
     @staticmethod
-    def moments_lam(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, -h * w * sin(b)
+    def moments_lam(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
+        return 0.0, -h*w*sin(b)
 
     @staticmethod
-    def reach(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value]:
-        t0 = h * w
-        return t0 * sin(b), t0 * cos(b)
+    def reach(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
+    def yielding(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value, Value]:
         return 0.0, 0.0, 0.0
 
     @staticmethod
-    def moments_N1(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, -h * w * cos(b)
+    def moments_N1(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
+        return 0.0, -h*w*cos(b)
 
     @staticmethod
-    def moments_beta(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value]:
+    def moments_beta(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
         return -k, 0.0
 
     @staticmethod
-    def moments_k(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value]:
+    def moments_k(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
         return b - a - beta, 0.0
 
     @staticmethod
-    def moments_tau(
-        a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value
-    ) -> tuple[Value, Value]:
+    def moments_tau(a: Array, b: Array, lam: float, N1: Value, beta: Value, h: Value, k: Value, tau: Value, w: Value) -> tuple[Value, Value]:
         return -1.0, 0.0
 
 
 class bending_and_end_load_and_self_weight:
     """e = h*lam*cos(b) + h*q*z + k*(-a + b)**2/2"""
 
-    parameters = ("h", "k", "q")
+    parameters = ('h', 'k', 'q')
     places = True
     hardens = False
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, x: Array, z: Array, lam: float, h: Value, k: Value, q: Value) -> Value:
-        return h * lam * cos(b) + h * q * z + (1 / 2) * k * (b - a) ** 2
+        return h*lam*cos(b) + h*q*z + (1/2)*k*(b - a)**2
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, h: Value, k: Value, q: Value) -> tuple[Value, Value]:
-        return k * (b - a), -h * lam * sin(b)
+        return k*(b - a), -h*lam*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, h: Value, k: Value, q: Value) -> tuple[Value, Value, Value]:
-        return k, h * lam * cos(b), 0.0
+        return k, h*lam*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, h: Value, k: Value, q: Value) -> tuple[Value, Value]:
-        return 0.0, -h * sin(b)
+        return 0.0, -h*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, h: Value, k: Value, q: Value) -> tuple[Value, Value]:
-        return h * sin(b), h * cos(b)
+        return h*sin(b), h*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, h: Value, k: Value, q: Value) -> tuple[Value, Value, Value]:
@@ -643,7 +601,7 @@ class bending_and_end_load_and_self_weight:
 
     @staticmethod
     def forces(x: Array, z: Array, h: Value, k: Value, q: Value) -> tuple[Value, Value]:
-        return 0.0, h * q
+        return 0.0, h*q
 
     @staticmethod
     def hardening(x: Array, z: Array, h: Value, k: Value, q: Value) -> tuple[Value, Value, Value]:
@@ -661,32 +619,32 @@ class bending_and_end_load_and_self_weight:
 class bending_and_end_load_and_self_weight_weighted:
     """e = h*lam*w*cos(b) + h*q*w*z + k*(-a + b)**2/2"""
 
-    parameters = ("h", "k", "q", "w")
+    parameters = ('h', 'k', 'q', 'w')
     places = True
     hardens = False
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, x: Array, z: Array, lam: float, h: Value, k: Value, q: Value, w: Value) -> Value:
-        t0 = h * w
-        return (1 / 2) * k * (b - a) ** 2 + lam * t0 * cos(b) + q * t0 * z
+        t0 = h*w
+        return (1/2)*k*(b - a)**2 + lam*t0*cos(b) + q*t0*z
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value]:
-        return k * (b - a), -h * lam * w * sin(b)
+        return k*(b - a), -h*lam*w*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value, Value]:
-        return k, h * lam * w * cos(b), 0.0
+        return k, h*lam*w*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * sin(b)
+        return 0.0, -h*w*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value]:
-        t0 = h * w
-        return t0 * sin(b), t0 * cos(b)
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value, Value]:
@@ -702,7 +660,7 @@ class bending_and_end_load_and_self_weight_weighted:
 
     @staticmethod
     def forces(x: Array, z: Array, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, h * q * w
+        return 0.0, h*q*w
 
     @staticmethod
     def hardening(x: Array, z: Array, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value, Value]:
@@ -714,36 +672,36 @@ class bending_and_end_load_and_self_weight_weighted:
 
     @staticmethod
     def forces_q(x: Array, z: Array, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, h * w
+        return 0.0, h*w
 
 
 class bending_with_rest_and_end_load_and_self_weight:
     """e = h*lam*cos(b) + h*q*z + k*(-a + b - beta)**2/2"""
 
-    parameters = ("beta", "h", "k", "q")
+    parameters = ('beta', 'h', 'k', 'q')
     places = True
     hardens = False
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, x: Array, z: Array, lam: float, beta: Value, h: Value, k: Value, q: Value) -> Value:
-        return h * lam * cos(b) + h * q * z + (1 / 2) * k * (b - a - beta) ** 2
+        return h*lam*cos(b) + h*q*z + (1/2)*k*(b - a - beta)**2
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value) -> tuple[Value, Value]:
-        return k * (b - a - beta), -h * lam * sin(b)
+        return k*(b - a - beta), -h*lam*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value) -> tuple[Value, Value, Value]:
-        return k, h * lam * cos(b), 0.0
+        return k, h*lam*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value) -> tuple[Value, Value]:
-        return 0.0, -h * sin(b)
+        return 0.0, -h*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value) -> tuple[Value, Value]:
-        return h * sin(b), h * cos(b)
+        return h*sin(b), h*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value) -> tuple[Value, Value, Value]:
@@ -763,7 +721,7 @@ class bending_with_rest_and_end_load_and_self_weight:
 
     @staticmethod
     def forces(x: Array, z: Array, beta: Value, h: Value, k: Value, q: Value) -> tuple[Value, Value]:
-        return 0.0, h * q
+        return 0.0, h*q
 
     @staticmethod
     def hardening(x: Array, z: Array, beta: Value, h: Value, k: Value, q: Value) -> tuple[Value, Value, Value]:
@@ -785,39 +743,35 @@ class bending_with_rest_and_end_load_and_self_weight:
 class bending_with_rest_and_end_load_and_self_weight_weighted:
     """e = h*lam*w*cos(b) + h*q*w*z + k*(-a + b - beta)**2/2"""
 
-    parameters = ("beta", "h", "k", "q", "w")
+    parameters = ('beta', 'h', 'k', 'q', 'w')
     places = True
     hardens = False
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, x: Array, z: Array, lam: float, beta: Value, h: Value, k: Value, q: Value, w: Value) -> Value:
-        t0 = h * w
-        return (1 / 2) * k * (b - a - beta) ** 2 + lam * t0 * cos(b) + q * t0 * z
+        t0 = h*w
+        return (1/2)*k*(b - a - beta)**2 + lam*t0*cos(b) + q*t0*z
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value]:
-        return k * (b - a - beta), -h * lam * w * sin(b)
+        return k*(b - a - beta), -h*lam*w*sin(b)
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * lam * w * cos(b), 0.0
+    def stiffness(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value, Value]:
+        return k, h*lam*w*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * sin(b)
+        return 0.0, -h*w*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value]:
-        t0 = h * w
-        return t0 * sin(b), t0 * cos(b)
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
+    def yielding(a: Array, b: Array, lam: float, beta: Value, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value, Value]:
         return 0.0, 0.0, 0.0
 
     @staticmethod
@@ -834,7 +788,7 @@ class bending_with_rest_and_end_load_and_self_weight_weighted:
 
     @staticmethod
     def forces(x: Array, z: Array, beta: Value, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, h * q * w
+        return 0.0, h*q*w
 
     @staticmethod
     def hardening(x: Array, z: Array, beta: Value, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value, Value]:
@@ -850,36 +804,36 @@ class bending_with_rest_and_end_load_and_self_weight_weighted:
 
     @staticmethod
     def forces_q(x: Array, z: Array, beta: Value, h: Value, k: Value, q: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, h * w
+        return 0.0, h*w
 
 
 class bending_and_end_load_and_foundation:
     """e = c*h*x**2/2 + h*lam*cos(b) + k*(-a + b)**2/2"""
 
-    parameters = ("c", "h", "k")
+    parameters = ('c', 'h', 'k')
     places = True
     hardens = True
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, x: Array, z: Array, lam: float, c: Value, h: Value, k: Value) -> Value:
-        return (1 / 2) * c * h * x**2 + h * lam * cos(b) + (1 / 2) * k * (b - a) ** 2
+        return (1/2)*c*h*x**2 + h*lam*cos(b) + (1/2)*k*(b - a)**2
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return k * (b - a), -h * lam * sin(b)
+        return k*(b - a), -h*lam*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, c: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
-        return k, h * lam * cos(b), 0.0
+        return k, h*lam*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return 0.0, -h * sin(b)
+        return 0.0, -h*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return h * sin(b), h * cos(b)
+        return h*sin(b), h*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, c: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
@@ -895,15 +849,15 @@ class bending_and_end_load_and_foundation:
 
     @staticmethod
     def forces(x: Array, z: Array, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return c * h * x, 0.0
+        return c*h*x, 0.0
 
     @staticmethod
     def hardening(x: Array, z: Array, c: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
-        return c * h, 0.0, 0.0
+        return c*h, 0.0, 0.0
 
     @staticmethod
     def forces_c(x: Array, z: Array, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return h * x, 0.0
+        return h*x, 0.0
 
     @staticmethod
     def forces_k(x: Array, z: Array, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
@@ -913,32 +867,32 @@ class bending_and_end_load_and_foundation:
 class bending_and_end_load_and_foundation_weighted:
     """e = c*h*w*x**2/2 + h*lam*w*cos(b) + k*(-a + b)**2/2"""
 
-    parameters = ("c", "h", "k", "w")
+    parameters = ('c', 'h', 'k', 'w')
     places = True
     hardens = True
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, x: Array, z: Array, lam: float, c: Value, h: Value, k: Value, w: Value) -> Value:
-        t0 = h * w
-        return (1 / 2) * c * t0 * x**2 + (1 / 2) * k * (b - a) ** 2 + lam * t0 * cos(b)
+        t0 = h*w
+        return (1/2)*c*t0*x**2 + (1/2)*k*(b - a)**2 + lam*t0*cos(b)
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return k * (b - a), -h * lam * w * sin(b)
+        return k*(b - a), -h*lam*w*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
-        return k, h * lam * w * cos(b), 0.0
+        return k, h*lam*w*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * sin(b)
+        return 0.0, -h*w*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        t0 = h * w
-        return t0 * sin(b), t0 * cos(b)
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
@@ -954,15 +908,15 @@ class bending_and_end_load_and_foundation_weighted:
 
     @staticmethod
     def forces(x: Array, z: Array, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return c * h * w * x, 0.0
+        return c*h*w*x, 0.0
 
     @staticmethod
     def hardening(x: Array, z: Array, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
-        return c * h * w, 0.0, 0.0
+        return c*h*w, 0.0, 0.0
 
     @staticmethod
     def forces_c(x: Array, z: Array, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return h * w * x, 0.0
+        return h*w*x, 0.0
 
     @staticmethod
     def forces_k(x: Array, z: Array, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
@@ -972,30 +926,30 @@ class bending_and_end_load_and_foundation_weighted:
 class bending_with_rest_and_end_load_and_foundation:
     """e = c*h*x**2/2 + h*lam*cos(b) + k*(-a + b - beta)**2/2"""
 
-    parameters = ("beta", "c", "h", "k")
+    parameters = ('beta', 'c', 'h', 'k')
     places = True
     hardens = True
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, x: Array, z: Array, lam: float, beta: Value, c: Value, h: Value, k: Value) -> Value:
-        return (1 / 2) * c * h * x**2 + h * lam * cos(b) + (1 / 2) * k * (b - a - beta) ** 2
+        return (1/2)*c*h*x**2 + h*lam*cos(b) + (1/2)*k*(b - a - beta)**2
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return k * (b - a - beta), -h * lam * sin(b)
+        return k*(b - a - beta), -h*lam*sin(b)
 
     @staticmethod
     def stiffness(a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
-        return k, h * lam * cos(b), 0.0
+        return k, h*lam*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return 0.0, -h * sin(b)
+        return 0.0, -h*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return h * sin(b), h * cos(b)
+        return h*sin(b), h*cos(b)
 
     @staticmethod
     def yielding(a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
@@ -1015,11 +969,11 @@ class bending_with_rest_and_end_load_and_foundation:
 
     @staticmethod
     def forces(x: Array, z: Array, beta: Value, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return c * h * x, 0.0
+        return c*h*x, 0.0
 
     @staticmethod
     def hardening(x: Array, z: Array, beta: Value, c: Value, h: Value, k: Value) -> tuple[Value, Value, Value]:
-        return c * h, 0.0, 0.0
+        return c*h, 0.0, 0.0
 
     @staticmethod
     def forces_beta(x: Array, z: Array, beta: Value, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
@@ -1027,7 +981,7 @@ class bending_with_rest_and_end_load_and_foundation:
 
     @staticmethod
     def forces_c(x: Array, z: Array, beta: Value, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
-        return h * x, 0.0
+        return h*x, 0.0
 
     @staticmethod
     def forces_k(x: Array, z: Array, beta: Value, c: Value, h: Value, k: Value) -> tuple[Value, Value]:
@@ -1037,39 +991,35 @@ class bending_with_rest_and_end_load_and_foundation:
 class bending_with_rest_and_end_load_and_foundation_weighted:
     """e = c*h*w*x**2/2 + h*lam*w*cos(b) + k*(-a + b - beta)**2/2"""
 
-    parameters = ("beta", "c", "h", "k", "w")
+    parameters = ('beta', 'c', 'h', 'k', 'w')
     places = True
     hardens = True
     yields = False
 
     @staticmethod
     def energy(a: Array, b: Array, x: Array, z: Array, lam: float, beta: Value, c: Value, h: Value, k: Value, w: Value) -> Value:
-        t0 = h * w
-        return (1 / 2) * c * t0 * x**2 + (1 / 2) * k * (b - a - beta) ** 2 + lam * t0 * cos(b)
+        t0 = h*w
+        return (1/2)*c*t0*x**2 + (1/2)*k*(b - a - beta)**2 + lam*t0*cos(b)
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return k * (b - a - beta), -h * lam * w * sin(b)
+        return k*(b - a - beta), -h*lam*w*sin(b)
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * lam * w * cos(b), 0.0
+    def stiffness(a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
+        return k, h*lam*w*cos(b), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return 0.0, -h * w * sin(b)
+        return 0.0, -h*w*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        t0 = h * w
-        return t0 * sin(b), t0 * cos(b)
+        t0 = h*w
+        return t0*sin(b), t0*cos(b)
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
+    def yielding(a: Array, b: Array, lam: float, beta: Value, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
         return 0.0, 0.0, 0.0
 
     @staticmethod
@@ -1086,11 +1036,11 @@ class bending_with_rest_and_end_load_and_foundation_weighted:
 
     @staticmethod
     def forces(x: Array, z: Array, beta: Value, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return c * h * w * x, 0.0
+        return c*h*w*x, 0.0
 
     @staticmethod
     def hardening(x: Array, z: Array, beta: Value, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value, Value]:
-        return c * h * w, 0.0, 0.0
+        return c*h*w, 0.0, 0.0
 
     @staticmethod
     def forces_beta(x: Array, z: Array, beta: Value, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
@@ -1098,7 +1048,7 @@ class bending_with_rest_and_end_load_and_foundation_weighted:
 
     @staticmethod
     def forces_c(x: Array, z: Array, beta: Value, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
-        return h * w * x, 0.0
+        return h*w*x, 0.0
 
     @staticmethod
     def forces_k(x: Array, z: Array, beta: Value, c: Value, h: Value, k: Value, w: Value) -> tuple[Value, Value]:
@@ -1108,7 +1058,7 @@ class bending_with_rest_and_end_load_and_foundation_weighted:
 class bending_and_end_load_and_shearable:
     """e = h*lam*cos(b) - h*(extension*lam**2*cos(b)**2 + lam**2*shear*sin(b)**2)/2 + k*(-a + b)**2/2"""
 
-    parameters = ("extension", "h", "k", "shear")
+    parameters = ('extension', 'h', 'k', 'shear')
     places = False
     hardens = False
     yields = True
@@ -1117,45 +1067,35 @@ class bending_and_end_load_and_shearable:
     def energy(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value) -> Value:
         t0 = lam**2
         t1 = cos(b)
-        return h * lam * t1 + (1 / 2) * k * (b - a) ** 2 - 1 / 2 * h * (extension * t0 * t1**2 + shear * t0 * sin(b) ** 2)
+        return h*lam*t1 + (1/2)*k*(b - a)**2 - 1/2*h*(extension*t0*t1**2 + shear*t0*sin(b)**2)
 
     @staticmethod
     def moments(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
-        return k * (b - a), h * lam * (lam * (extension - shear) * cos(b) - 1) * sin(b)
+        return k*(b - a), h*lam*(lam*(extension - shear)*cos(b) - 1)*sin(b)
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * lam * (lam * (shear - extension) * cos(2 * b) + cos(b)), 0.0
+    def stiffness(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value, Value]:
+        return k, h*lam*(lam*(shear - extension)*cos(2*b) + cos(b)), 0.0
 
     @staticmethod
     def moments_lam(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
-        return 0.0, h * (2 * lam * (extension - shear) * cos(b) - 1) * sin(b)
+        return 0.0, h*(2*lam*(extension - shear)*cos(b) - 1)*sin(b)
 
     @staticmethod
     def reach(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
         t0 = cos(b)
         t1 = sin(b)
-        return h * t1 * (1 - lam * t0 * (extension - shear)), h * (t0 - lam * (extension * t0**2 + shear * t1**2))
+        return h*t1*(1 - lam*t0*(extension - shear)), h*(t0 - lam*(extension*t0**2 + shear*t1**2))
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value, Value]:
-        t0 = cos(b) ** 2
-        t1 = sin(b) ** 2
-        return (
-            -h * (extension * t0 + shear * t1),
-            (1 / 2) * h * (extension - shear) * sin(2 * b),
-            -h * (extension * t1 + shear * t0),
-        )
+    def yielding(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value, Value]:
+        t0 = cos(b)**2
+        t1 = sin(b)**2
+        return -h*(extension*t0 + shear*t1), (1/2)*h*(extension - shear)*sin(2*b), -h*(extension*t1 + shear*t0)
 
     @staticmethod
-    def moments_extension(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, (1 / 2) * h * lam**2 * sin(2 * b)
+    def moments_extension(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
+        return 0.0, (1/2)*h*lam**2*sin(2*b)
 
     @staticmethod
     def moments_k(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
@@ -1163,13 +1103,13 @@ class bending_and_end_load_and_shearable:
 
     @staticmethod
     def moments_shear(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
-        return 0.0, -1 / 2 * h * lam**2 * sin(2 * b)
+        return 0.0, -1/2*h*lam**2*sin(2*b)
 
 
 class bending_and_end_load_and_shearable_weighted:
     """e = h*lam*w*cos(b) - h*w*(extension*lam**2*cos(b)**2 + lam**2*shear*sin(b)**2)/2 + k*(-a + b)**2/2"""
 
-    parameters = ("extension", "h", "k", "shear", "w")
+    parameters = ('extension', 'h', 'k', 'shear', 'w')
     places = False
     hardens = False
     yields = True
@@ -1178,72 +1118,52 @@ class bending_and_end_load_and_shearable_weighted:
     def energy(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> Value:
         t0 = lam**2
         t1 = cos(b)
-        t2 = h * w
-        return (1 / 2) * k * (b - a) ** 2 + lam * t1 * t2 - 1 / 2 * t2 * (extension * t0 * t1**2 + shear * t0 * sin(b) ** 2)
+        t2 = h*w
+        return (1/2)*k*(b - a)**2 + lam*t1*t2 - 1/2*t2*(extension*t0*t1**2 + shear*t0*sin(b)**2)
 
     @staticmethod
-    def moments(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return k * (b - a), h * lam * w * (lam * (extension - shear) * cos(b) - 1) * sin(b)
+    def moments(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
+        return k*(b - a), h*lam*w*(lam*(extension - shear)*cos(b) - 1)*sin(b)
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * lam * w * (lam * (shear - extension) * cos(2 * b) + cos(b)), 0.0
+    def stiffness(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value, Value]:
+        return k, h*lam*w*(lam*(shear - extension)*cos(2*b) + cos(b)), 0.0
 
     @staticmethod
-    def moments_lam(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, h * w * (2 * lam * (extension - shear) * cos(b) - 1) * sin(b)
+    def moments_lam(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
+        return 0.0, h*w*(2*lam*(extension - shear)*cos(b) - 1)*sin(b)
 
     @staticmethod
-    def reach(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
+    def reach(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
         t0 = cos(b)
         t1 = sin(b)
-        t2 = h * w
-        return t1 * t2 * (1 - lam * t0 * (extension - shear)), t2 * (t0 - lam * (extension * t0**2 + shear * t1**2))
+        t2 = h*w
+        return t1*t2*(1 - lam*t0*(extension - shear)), t2*(t0 - lam*(extension*t0**2 + shear*t1**2))
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
-        t0 = cos(b) ** 2
-        t1 = sin(b) ** 2
-        t2 = h * w
-        return (
-            -t2 * (extension * t0 + shear * t1),
-            (1 / 2) * t2 * (extension - shear) * sin(2 * b),
-            -t2 * (extension * t1 + shear * t0),
-        )
+    def yielding(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value, Value]:
+        t0 = cos(b)**2
+        t1 = sin(b)**2
+        t2 = h*w
+        return -t2*(extension*t0 + shear*t1), (1/2)*t2*(extension - shear)*sin(2*b), -t2*(extension*t1 + shear*t0)
 
     @staticmethod
-    def moments_extension(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, (1 / 2) * h * lam**2 * w * sin(2 * b)
+    def moments_extension(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
+        return 0.0, (1/2)*h*lam**2*w*sin(2*b)
 
     @staticmethod
-    def moments_k(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
+    def moments_k(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
         return b - a, 0.0
 
     @staticmethod
-    def moments_shear(
-        a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, -1 / 2 * h * lam**2 * w * sin(2 * b)
+    def moments_shear(a: Array, b: Array, lam: float, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
+        return 0.0, -1/2*h*lam**2*w*sin(2*b)
 
 
 class bending_with_rest_and_end_load_and_shearable:
     """e = h*lam*cos(b) - h*(extension*lam**2*cos(b)**2 + lam**2*shear*sin(b)**2)/2 + k*(-a + b - beta)**2/2"""
 
-    parameters = ("beta", "extension", "h", "k", "shear")
+    parameters = ('beta', 'extension', 'h', 'k', 'shear')
     places = False
     hardens = False
     yields = True
@@ -1252,174 +1172,126 @@ class bending_with_rest_and_end_load_and_shearable:
     def energy(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value) -> Value:
         t0 = lam**2
         t1 = cos(b)
-        return h * lam * t1 + (1 / 2) * k * (b - a - beta) ** 2 - 1 / 2 * h * (extension * t0 * t1**2 + shear * t0 * sin(b) ** 2)
+        return h*lam*t1 + (1/2)*k*(b - a - beta)**2 - 1/2*h*(extension*t0*t1**2 + shear*t0*sin(b)**2)
 
     @staticmethod
-    def moments(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value]:
-        return k * (b - a - beta), h * lam * (lam * (extension - shear) * cos(b) - 1) * sin(b)
+    def moments(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
+        return k*(b - a - beta), h*lam*(lam*(extension - shear)*cos(b) - 1)*sin(b)
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * lam * (lam * (shear - extension) * cos(2 * b) + cos(b)), 0.0
+    def stiffness(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value, Value]:
+        return k, h*lam*(lam*(shear - extension)*cos(2*b) + cos(b)), 0.0
 
     @staticmethod
-    def moments_lam(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, h * (2 * lam * (extension - shear) * cos(b) - 1) * sin(b)
+    def moments_lam(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
+        return 0.0, h*(2*lam*(extension - shear)*cos(b) - 1)*sin(b)
 
     @staticmethod
-    def reach(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value]:
+    def reach(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
         t0 = cos(b)
         t1 = sin(b)
-        return h * t1 * (1 - lam * t0 * (extension - shear)), h * (t0 - lam * (extension * t0**2 + shear * t1**2))
+        return h*t1*(1 - lam*t0*(extension - shear)), h*(t0 - lam*(extension*t0**2 + shear*t1**2))
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value, Value]:
-        t0 = cos(b) ** 2
-        t1 = sin(b) ** 2
-        return (
-            -h * (extension * t0 + shear * t1),
-            (1 / 2) * h * (extension - shear) * sin(2 * b),
-            -h * (extension * t1 + shear * t0),
-        )
+    def yielding(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value, Value]:
+        t0 = cos(b)**2
+        t1 = sin(b)**2
+        return -h*(extension*t0 + shear*t1), (1/2)*h*(extension - shear)*sin(2*b), -h*(extension*t1 + shear*t0)
 
     @staticmethod
-    def moments_beta(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value]:
+    def moments_beta(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
         return -k, 0.0
 
     @staticmethod
-    def moments_extension(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, (1 / 2) * h * lam**2 * sin(2 * b)
+    def moments_extension(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
+        return 0.0, (1/2)*h*lam**2*sin(2*b)
 
     @staticmethod
-    def moments_k(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value]:
+    def moments_k(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
         return b - a - beta, 0.0
 
     @staticmethod
-    def moments_shear(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, -1 / 2 * h * lam**2 * sin(2 * b)
+    def moments_shear(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value) -> tuple[Value, Value]:
+        return 0.0, -1/2*h*lam**2*sin(2*b)
 
 
 class bending_with_rest_and_end_load_and_shearable_weighted:
     """e = h*lam*w*cos(b) - h*w*(extension*lam**2*cos(b)**2 + lam**2*shear*sin(b)**2)/2 + k*(-a + b - beta)**2/2"""
 
-    parameters = ("beta", "extension", "h", "k", "shear", "w")
+    parameters = ('beta', 'extension', 'h', 'k', 'shear', 'w')
     places = False
     hardens = False
     yields = True
 
     @staticmethod
-    def energy(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> Value:
+    def energy(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> Value:
         t0 = lam**2
         t1 = cos(b)
-        t2 = h * w
-        return (
-            (1 / 2) * k * (b - a - beta) ** 2 + lam * t1 * t2 - 1 / 2 * t2 * (extension * t0 * t1**2 + shear * t0 * sin(b) ** 2)
-        )
+        t2 = h*w
+        return (1/2)*k*(b - a - beta)**2 + lam*t1*t2 - 1/2*t2*(extension*t0*t1**2 + shear*t0*sin(b)**2)
 
     @staticmethod
-    def moments(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return k * (b - a - beta), h * lam * w * (lam * (extension - shear) * cos(b) - 1) * sin(b)
+    def moments(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
+        return k*(b - a - beta), h*lam*w*(lam*(extension - shear)*cos(b) - 1)*sin(b)
 
     @staticmethod
-    def stiffness(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
-        return k, h * lam * w * (lam * (shear - extension) * cos(2 * b) + cos(b)), 0.0
+    def stiffness(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value, Value]:
+        return k, h*lam*w*(lam*(shear - extension)*cos(2*b) + cos(b)), 0.0
 
     @staticmethod
-    def moments_lam(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, h * w * (2 * lam * (extension - shear) * cos(b) - 1) * sin(b)
+    def moments_lam(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
+        return 0.0, h*w*(2*lam*(extension - shear)*cos(b) - 1)*sin(b)
 
     @staticmethod
-    def reach(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
+    def reach(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
         t0 = cos(b)
         t1 = sin(b)
-        t2 = h * w
-        return t1 * t2 * (1 - lam * t0 * (extension - shear)), t2 * (t0 - lam * (extension * t0**2 + shear * t1**2))
+        t2 = h*w
+        return t1*t2*(1 - lam*t0*(extension - shear)), t2*(t0 - lam*(extension*t0**2 + shear*t1**2))
 
     @staticmethod
-    def yielding(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value, Value]:
-        t0 = cos(b) ** 2
-        t1 = sin(b) ** 2
-        t2 = h * w
-        return (
-            -t2 * (extension * t0 + shear * t1),
-            (1 / 2) * t2 * (extension - shear) * sin(2 * b),
-            -t2 * (extension * t1 + shear * t0),
-        )
+    def yielding(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value, Value]:
+        t0 = cos(b)**2
+        t1 = sin(b)**2
+        t2 = h*w
+        return -t2*(extension*t0 + shear*t1), (1/2)*t2*(extension - shear)*sin(2*b), -t2*(extension*t1 + shear*t0)
 
     @staticmethod
-    def moments_beta(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
+    def moments_beta(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
         return -k, 0.0
 
     @staticmethod
-    def moments_extension(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, (1 / 2) * h * lam**2 * w * sin(2 * b)
+    def moments_extension(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
+        return 0.0, (1/2)*h*lam**2*w*sin(2*b)
 
     @staticmethod
-    def moments_k(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
+    def moments_k(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
         return b - a - beta, 0.0
 
     @staticmethod
-    def moments_shear(
-        a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, -1 / 2 * h * lam**2 * w * sin(2 * b)
+    def moments_shear(a: Array, b: Array, lam: float, beta: Value, extension: Value, h: Value, k: Value, shear: Value, w: Value) -> tuple[Value, Value]:
+        return 0.0, -1/2*h*lam**2*w*sin(2*b)
 
 
 class limit_of_bending_and_end_load_and_end_force:
     """W = K*phi_s**2/2 - N1*sin(phi) + lam*cos(phi)"""
 
-    parameters = ("K", "N1")
+    parameters = ('K', 'N1')
     places = False
     hardens = False
     yields = False
 
     @staticmethod
     def energy(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value) -> Value:
-        return (1 / 2) * K * phi_s**2 + lam * cos(phi) - N1 * sin(phi)
+        return (1/2)*K*phi_s**2 + lam*cos(phi) - N1*sin(phi)
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value) -> tuple[Value, Value]:
-        return K * phi_s, -N1 * cos(phi) - lam * sin(phi)
+        return K*phi_s, -N1*cos(phi) - lam*sin(phi)
 
     @staticmethod
     def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value) -> tuple[Value, Value, Value]:
-        return K, 0.0, N1 * sin(phi) - lam * cos(phi)
+        return K, 0.0, N1*sin(phi) - lam*cos(phi)
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value) -> tuple[Value, Value]:
@@ -1445,22 +1317,22 @@ class limit_of_bending_and_end_load_and_end_force:
 class limit_of_bending_with_rest_and_end_load_and_end_force:
     """W = K*(phi_s - u_hat)**2/2 - N1*sin(phi) + lam*cos(phi)"""
 
-    parameters = ("K", "N1", "u_hat")
+    parameters = ('K', 'N1', 'u_hat')
     places = False
     hardens = False
     yields = False
 
     @staticmethod
     def energy(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, u_hat: Value) -> Value:
-        return (1 / 2) * K * (phi_s - u_hat) ** 2 + lam * cos(phi) - N1 * sin(phi)
+        return (1/2)*K*(phi_s - u_hat)**2 + lam*cos(phi) - N1*sin(phi)
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, u_hat: Value) -> tuple[Value, Value]:
-        return K * (phi_s - u_hat), -N1 * cos(phi) - lam * sin(phi)
+        return K*(phi_s - u_hat), -N1*cos(phi) - lam*sin(phi)
 
     @staticmethod
     def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, u_hat: Value) -> tuple[Value, Value, Value]:
-        return K, 0.0, N1 * sin(phi) - lam * cos(phi)
+        return K, 0.0, N1*sin(phi) - lam*cos(phi)
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, u_hat: Value) -> tuple[Value, Value]:
@@ -1490,22 +1362,22 @@ class limit_of_bending_with_rest_and_end_load_and_end_force:
 class limit_of_bending_and_end_load_and_end_torque:
     """W = K*phi_s**2/2 + lam*cos(phi) - phi_s*tau"""
 
-    parameters = ("K", "tau")
+    parameters = ('K', 'tau')
     places = False
     hardens = False
     yields = False
 
     @staticmethod
     def energy(phi_s: Array, phi: Array, lam: float, K: Value, tau: Value) -> Value:
-        return (1 / 2) * K * phi_s**2 + lam * cos(phi) - phi_s * tau
+        return (1/2)*K*phi_s**2 + lam*cos(phi) - phi_s*tau
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, tau: Value) -> tuple[Value, Value]:
-        return K * phi_s - tau, -lam * sin(phi)
+        return K*phi_s - tau, -lam*sin(phi)
 
     @staticmethod
     def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, tau: Value) -> tuple[Value, Value, Value]:
-        return K, 0.0, -lam * cos(phi)
+        return K, 0.0, -lam*cos(phi)
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, tau: Value) -> tuple[Value, Value]:
@@ -1531,22 +1403,22 @@ class limit_of_bending_and_end_load_and_end_torque:
 class limit_of_bending_with_rest_and_end_load_and_end_torque:
     """W = K*(phi_s - u_hat)**2/2 + lam*cos(phi) - phi_s*tau"""
 
-    parameters = ("K", "tau", "u_hat")
+    parameters = ('K', 'tau', 'u_hat')
     places = False
     hardens = False
     yields = False
 
     @staticmethod
     def energy(phi_s: Array, phi: Array, lam: float, K: Value, tau: Value, u_hat: Value) -> Value:
-        return (1 / 2) * K * (phi_s - u_hat) ** 2 + lam * cos(phi) - phi_s * tau
+        return (1/2)*K*(phi_s - u_hat)**2 + lam*cos(phi) - phi_s*tau
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, tau: Value, u_hat: Value) -> tuple[Value, Value]:
-        return K * (phi_s - u_hat) - tau, -lam * sin(phi)
+        return K*(phi_s - u_hat) - tau, -lam*sin(phi)
 
     @staticmethod
     def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, tau: Value, u_hat: Value) -> tuple[Value, Value, Value]:
-        return K, 0.0, -lam * cos(phi)
+        return K, 0.0, -lam*cos(phi)
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, tau: Value, u_hat: Value) -> tuple[Value, Value]:
@@ -1576,22 +1448,22 @@ class limit_of_bending_with_rest_and_end_load_and_end_torque:
 class limit_of_bending_and_end_load_and_end_force_and_end_torque:
     """W = K*phi_s**2/2 - N1*sin(phi) + lam*cos(phi) - phi_s*tau"""
 
-    parameters = ("K", "N1", "tau")
+    parameters = ('K', 'N1', 'tau')
     places = False
     hardens = False
     yields = False
 
     @staticmethod
     def energy(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value) -> Value:
-        return (1 / 2) * K * phi_s**2 + lam * cos(phi) - N1 * sin(phi) - phi_s * tau
+        return (1/2)*K*phi_s**2 + lam*cos(phi) - N1*sin(phi) - phi_s*tau
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value) -> tuple[Value, Value]:
-        return K * phi_s - tau, -N1 * cos(phi) - lam * sin(phi)
+        return K*phi_s - tau, -N1*cos(phi) - lam*sin(phi)
 
     @staticmethod
     def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value) -> tuple[Value, Value, Value]:
-        return K, 0.0, N1 * sin(phi) - lam * cos(phi)
+        return K, 0.0, N1*sin(phi) - lam*cos(phi)
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value) -> tuple[Value, Value]:
@@ -1621,24 +1493,22 @@ class limit_of_bending_and_end_load_and_end_force_and_end_torque:
 class limit_of_bending_with_rest_and_end_load_and_end_force_and_end_torque:
     """W = K*(phi_s - u_hat)**2/2 - N1*sin(phi) + lam*cos(phi) - phi_s*tau"""
 
-    parameters = ("K", "N1", "tau", "u_hat")
+    parameters = ('K', 'N1', 'tau', 'u_hat')
     places = False
     hardens = False
     yields = False
 
     @staticmethod
     def energy(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value, u_hat: Value) -> Value:
-        return (1 / 2) * K * (phi_s - u_hat) ** 2 + lam * cos(phi) - N1 * sin(phi) - phi_s * tau
+        return (1/2)*K*(phi_s - u_hat)**2 + lam*cos(phi) - N1*sin(phi) - phi_s*tau
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value, u_hat: Value) -> tuple[Value, Value]:
-        return K * (phi_s - u_hat) - tau, -N1 * cos(phi) - lam * sin(phi)
+        return K*(phi_s - u_hat) - tau, -N1*cos(phi) - lam*sin(phi)
 
     @staticmethod
-    def stiffness(
-        phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value, u_hat: Value
-    ) -> tuple[Value, Value, Value]:
-        return K, 0.0, N1 * sin(phi) - lam * cos(phi)
+    def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value, u_hat: Value) -> tuple[Value, Value, Value]:
+        return K, 0.0, N1*sin(phi) - lam*cos(phi)
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value, u_hat: Value) -> tuple[Value, Value]:
@@ -1649,9 +1519,7 @@ class limit_of_bending_with_rest_and_end_load_and_end_force_and_end_torque:
         return sin(phi), cos(phi)
 
     @staticmethod
-    def yielding(
-        phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value, u_hat: Value
-    ) -> tuple[Value, Value, Value]:
+    def yielding(phi_s: Array, phi: Array, lam: float, K: Value, N1: Value, tau: Value, u_hat: Value) -> tuple[Value, Value, Value]:
         return 0.0, 0.0, 0.0
 
     @staticmethod
@@ -1674,22 +1542,22 @@ class limit_of_bending_with_rest_and_end_load_and_end_force_and_end_torque:
 class limit_of_bending_and_end_load_and_self_weight:
     """W = K*phi_s**2/2 + lam*cos(phi) + q*z"""
 
-    parameters = ("K", "q")
+    parameters = ('K', 'q')
     places = True
     hardens = False
     yields = False
 
     @staticmethod
     def energy(phi_s: Array, phi: Array, x: Array, z: Array, lam: float, K: Value, q: Value) -> Value:
-        return (1 / 2) * K * phi_s**2 + lam * cos(phi) + q * z
+        return (1/2)*K*phi_s**2 + lam*cos(phi) + q*z
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, q: Value) -> tuple[Value, Value]:
-        return K * phi_s, -lam * sin(phi)
+        return K*phi_s, -lam*sin(phi)
 
     @staticmethod
     def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, q: Value) -> tuple[Value, Value, Value]:
-        return K, 0.0, -lam * cos(phi)
+        return K, 0.0, -lam*cos(phi)
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, q: Value) -> tuple[Value, Value]:
@@ -1731,22 +1599,22 @@ class limit_of_bending_and_end_load_and_self_weight:
 class limit_of_bending_with_rest_and_end_load_and_self_weight:
     """W = K*(phi_s - u_hat)**2/2 + lam*cos(phi) + q*z"""
 
-    parameters = ("K", "q", "u_hat")
+    parameters = ('K', 'q', 'u_hat')
     places = True
     hardens = False
     yields = False
 
     @staticmethod
     def energy(phi_s: Array, phi: Array, x: Array, z: Array, lam: float, K: Value, q: Value, u_hat: Value) -> Value:
-        return (1 / 2) * K * (phi_s - u_hat) ** 2 + lam * cos(phi) + q * z
+        return (1/2)*K*(phi_s - u_hat)**2 + lam*cos(phi) + q*z
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, q: Value, u_hat: Value) -> tuple[Value, Value]:
-        return K * (phi_s - u_hat), -lam * sin(phi)
+        return K*(phi_s - u_hat), -lam*sin(phi)
 
     @staticmethod
     def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, q: Value, u_hat: Value) -> tuple[Value, Value, Value]:
-        return K, 0.0, -lam * cos(phi)
+        return K, 0.0, -lam*cos(phi)
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, q: Value, u_hat: Value) -> tuple[Value, Value]:
@@ -1796,22 +1664,22 @@ class limit_of_bending_with_rest_and_end_load_and_self_weight:
 class limit_of_bending_and_end_load_and_foundation:
     """W = K*phi_s**2/2 + c*x**2/2 + lam*cos(phi)"""
 
-    parameters = ("K", "c")
+    parameters = ('K', 'c')
     places = True
     hardens = True
     yields = False
 
     @staticmethod
     def energy(phi_s: Array, phi: Array, x: Array, z: Array, lam: float, K: Value, c: Value) -> Value:
-        return (1 / 2) * K * phi_s**2 + (1 / 2) * c * x**2 + lam * cos(phi)
+        return (1/2)*K*phi_s**2 + (1/2)*c*x**2 + lam*cos(phi)
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, c: Value) -> tuple[Value, Value]:
-        return K * phi_s, -lam * sin(phi)
+        return K*phi_s, -lam*sin(phi)
 
     @staticmethod
     def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, c: Value) -> tuple[Value, Value, Value]:
-        return K, 0.0, -lam * cos(phi)
+        return K, 0.0, -lam*cos(phi)
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, c: Value) -> tuple[Value, Value]:
@@ -1835,7 +1703,7 @@ class limit_of_bending_and_end_load_and_foundation:
 
     @staticmethod
     def forces(x: Array, z: Array, K: Value, c: Value) -> tuple[Value, Value]:
-        return c * x, 0.0
+        return c*x, 0.0
 
     @staticmethod
     def hardening(x: Array, z: Array, K: Value, c: Value) -> tuple[Value, Value, Value]:
@@ -1853,22 +1721,22 @@ class limit_of_bending_and_end_load_and_foundation:
 class limit_of_bending_with_rest_and_end_load_and_foundation:
     """W = K*(phi_s - u_hat)**2/2 + c*x**2/2 + lam*cos(phi)"""
 
-    parameters = ("K", "c", "u_hat")
+    parameters = ('K', 'c', 'u_hat')
     places = True
     hardens = True
     yields = False
 
     @staticmethod
     def energy(phi_s: Array, phi: Array, x: Array, z: Array, lam: float, K: Value, c: Value, u_hat: Value) -> Value:
-        return (1 / 2) * K * (phi_s - u_hat) ** 2 + (1 / 2) * c * x**2 + lam * cos(phi)
+        return (1/2)*K*(phi_s - u_hat)**2 + (1/2)*c*x**2 + lam*cos(phi)
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, c: Value, u_hat: Value) -> tuple[Value, Value]:
-        return K * (phi_s - u_hat), -lam * sin(phi)
+        return K*(phi_s - u_hat), -lam*sin(phi)
 
     @staticmethod
     def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, c: Value, u_hat: Value) -> tuple[Value, Value, Value]:
-        return K, 0.0, -lam * cos(phi)
+        return K, 0.0, -lam*cos(phi)
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, c: Value, u_hat: Value) -> tuple[Value, Value]:
@@ -1896,7 +1764,7 @@ class limit_of_bending_with_rest_and_end_load_and_foundation:
 
     @staticmethod
     def forces(x: Array, z: Array, K: Value, c: Value, u_hat: Value) -> tuple[Value, Value]:
-        return c * x, 0.0
+        return c*x, 0.0
 
     @staticmethod
     def hardening(x: Array, z: Array, K: Value, c: Value, u_hat: Value) -> tuple[Value, Value, Value]:
@@ -1918,7 +1786,7 @@ class limit_of_bending_with_rest_and_end_load_and_foundation:
 class limit_of_bending_and_end_load_and_shearable:
     """W = K*phi_s**2/2 - extension*lam**2*cos(phi)**2/2 - lam**2*shear*sin(phi)**2/2 + lam*cos(phi)"""
 
-    parameters = ("K", "extension", "shear")
+    parameters = ('K', 'extension', 'shear')
     places = False
     hardens = False
     yields = True
@@ -1926,36 +1794,36 @@ class limit_of_bending_and_end_load_and_shearable:
     @staticmethod
     def energy(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value) -> Value:
         t0 = cos(phi)
-        t1 = (1 / 2) * lam**2
-        return (1 / 2) * K * phi_s**2 + lam * t0 - extension * t0**2 * t1 - shear * t1 * sin(phi) ** 2
+        t1 = (1/2)*lam**2
+        return (1/2)*K*phi_s**2 + lam*t0 - extension*t0**2*t1 - shear*t1*sin(phi)**2
 
     @staticmethod
     def moments(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value) -> tuple[Value, Value]:
         t0 = cos(phi)
-        return K * phi_s, lam * (extension * lam * t0 - lam * shear * t0 - 1) * sin(phi)
+        return K*phi_s, lam*(extension*lam*t0 - lam*shear*t0 - 1)*sin(phi)
 
     @staticmethod
     def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value) -> tuple[Value, Value, Value]:
-        t0 = sin(phi) ** 2
-        return K, 0.0, lam * (extension * lam + 2 * lam * shear * t0 - 2 * extension * lam * t0 - lam * shear - cos(phi))
+        t0 = sin(phi)**2
+        return K, 0.0, lam*(extension*lam + 2*lam*shear*t0 - 2*extension*lam*t0 - lam*shear - cos(phi))
 
     @staticmethod
     def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value) -> tuple[Value, Value]:
-        t0 = sin(2 * phi)
-        return 0.0, extension * lam * t0 - lam * shear * t0 - sin(phi)
+        t0 = sin(2*phi)
+        return 0.0, extension*lam*t0 - lam*shear*t0 - sin(phi)
 
     @staticmethod
     def reach(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value) -> tuple[Value, Value]:
         t0 = cos(phi)
-        t1 = lam * t0
+        t1 = lam*t0
         t2 = sin(phi)
-        return t2 * (shear * t1 + 1 - extension * t1), t0 - extension * lam * t0**2 - lam * shear * t2**2
+        return t2*(shear*t1 + 1 - extension*t1), t0 - extension*lam*t0**2 - lam*shear*t2**2
 
     @staticmethod
     def yielding(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value) -> tuple[Value, Value, Value]:
-        t0 = cos(phi) ** 2
-        t1 = sin(phi) ** 2
-        return -extension * t0 - shear * t1, (1 / 2) * (extension - shear) * sin(2 * phi), -extension * t1 - shear * t0
+        t0 = cos(phi)**2
+        t1 = sin(phi)**2
+        return -extension*t0 - shear*t1, (1/2)*(extension - shear)*sin(2*phi), -extension*t1 - shear*t0
 
     @staticmethod
     def moments_K(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value) -> tuple[Value, Value]:
@@ -1963,17 +1831,17 @@ class limit_of_bending_and_end_load_and_shearable:
 
     @staticmethod
     def moments_extension(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value) -> tuple[Value, Value]:
-        return 0.0, (1 / 2) * lam**2 * sin(2 * phi)
+        return 0.0, (1/2)*lam**2*sin(2*phi)
 
     @staticmethod
     def moments_shear(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value) -> tuple[Value, Value]:
-        return 0.0, -1 / 2 * lam**2 * sin(2 * phi)
+        return 0.0, -1/2*lam**2*sin(2*phi)
 
 
 class limit_of_bending_with_rest_and_end_load_and_shearable:
     """W = K*(phi_s - u_hat)**2/2 - extension*lam**2*cos(phi)**2/2 - lam**2*shear*sin(phi)**2/2 + lam*cos(phi)"""
 
-    parameters = ("K", "extension", "shear", "u_hat")
+    parameters = ('K', 'extension', 'shear', 'u_hat')
     places = False
     hardens = False
     yields = True
@@ -1981,110 +1849,92 @@ class limit_of_bending_with_rest_and_end_load_and_shearable:
     @staticmethod
     def energy(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value) -> Value:
         t0 = cos(phi)
-        t1 = (1 / 2) * lam**2
-        return (1 / 2) * K * (phi_s - u_hat) ** 2 + lam * t0 - extension * t0**2 * t1 - shear * t1 * sin(phi) ** 2
+        t1 = (1/2)*lam**2
+        return (1/2)*K*(phi_s - u_hat)**2 + lam*t0 - extension*t0**2*t1 - shear*t1*sin(phi)**2
 
     @staticmethod
-    def moments(
-        phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value
-    ) -> tuple[Value, Value]:
+    def moments(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value) -> tuple[Value, Value]:
         t0 = cos(phi)
-        return K * (phi_s - u_hat), lam * (extension * lam * t0 - lam * shear * t0 - 1) * sin(phi)
+        return K*(phi_s - u_hat), lam*(extension*lam*t0 - lam*shear*t0 - 1)*sin(phi)
 
     @staticmethod
-    def stiffness(
-        phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value
-    ) -> tuple[Value, Value, Value]:
-        t0 = sin(phi) ** 2
-        return K, 0.0, lam * (extension * lam + 2 * lam * shear * t0 - 2 * extension * lam * t0 - lam * shear - cos(phi))
+    def stiffness(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value) -> tuple[Value, Value, Value]:
+        t0 = sin(phi)**2
+        return K, 0.0, lam*(extension*lam + 2*lam*shear*t0 - 2*extension*lam*t0 - lam*shear - cos(phi))
 
     @staticmethod
-    def moments_lam(
-        phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value
-    ) -> tuple[Value, Value]:
-        t0 = sin(2 * phi)
-        return 0.0, extension * lam * t0 - lam * shear * t0 - sin(phi)
+    def moments_lam(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value) -> tuple[Value, Value]:
+        t0 = sin(2*phi)
+        return 0.0, extension*lam*t0 - lam*shear*t0 - sin(phi)
 
     @staticmethod
-    def reach(
-        phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value
-    ) -> tuple[Value, Value]:
+    def reach(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value) -> tuple[Value, Value]:
         t0 = cos(phi)
-        t1 = lam * t0
+        t1 = lam*t0
         t2 = sin(phi)
-        return t2 * (shear * t1 + 1 - extension * t1), t0 - extension * lam * t0**2 - lam * shear * t2**2
+        return t2*(shear*t1 + 1 - extension*t1), t0 - extension*lam*t0**2 - lam*shear*t2**2
 
     @staticmethod
-    def yielding(
-        phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value
-    ) -> tuple[Value, Value, Value]:
-        t0 = cos(phi) ** 2
-        t1 = sin(phi) ** 2
-        return -extension * t0 - shear * t1, (1 / 2) * (extension - shear) * sin(2 * phi), -extension * t1 - shear * t0
+    def yielding(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value) -> tuple[Value, Value, Value]:
+        t0 = cos(phi)**2
+        t1 = sin(phi)**2
+        return -extension*t0 - shear*t1, (1/2)*(extension - shear)*sin(2*phi), -extension*t1 - shear*t0
 
     @staticmethod
-    def moments_K(
-        phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value
-    ) -> tuple[Value, Value]:
+    def moments_K(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value) -> tuple[Value, Value]:
         return phi_s - u_hat, 0.0
 
     @staticmethod
-    def moments_extension(
-        phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, (1 / 2) * lam**2 * sin(2 * phi)
+    def moments_extension(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value) -> tuple[Value, Value]:
+        return 0.0, (1/2)*lam**2*sin(2*phi)
 
     @staticmethod
-    def moments_shear(
-        phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value
-    ) -> tuple[Value, Value]:
-        return 0.0, -1 / 2 * lam**2 * sin(2 * phi)
+    def moments_shear(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value) -> tuple[Value, Value]:
+        return 0.0, -1/2*lam**2*sin(2*phi)
 
     @staticmethod
-    def moments_u_hat(
-        phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value
-    ) -> tuple[Value, Value]:
+    def moments_u_hat(phi_s: Array, phi: Array, lam: float, K: Value, extension: Value, shear: Value, u_hat: Value) -> tuple[Value, Value]:
         return -K, 0.0
 
 
 KERNELS: dict[str, Any] = {
-    "bending_and_end_load_and_end_force": bending_and_end_load_and_end_force,
-    "bending_and_end_load_and_end_force_weighted": bending_and_end_load_and_end_force_weighted,
-    "bending_with_rest_and_end_load_and_end_force": bending_with_rest_and_end_load_and_end_force,
-    "bending_with_rest_and_end_load_and_end_force_weighted": bending_with_rest_and_end_load_and_end_force_weighted,
-    "bending_and_end_load_and_end_torque": bending_and_end_load_and_end_torque,
-    "bending_and_end_load_and_end_torque_weighted": bending_and_end_load_and_end_torque_weighted,
-    "bending_with_rest_and_end_load_and_end_torque": bending_with_rest_and_end_load_and_end_torque,
-    "bending_with_rest_and_end_load_and_end_torque_weighted": bending_with_rest_and_end_load_and_end_torque_weighted,
-    "bending_and_end_load_and_end_force_and_end_torque": bending_and_end_load_and_end_force_and_end_torque,
-    "bending_and_end_load_and_end_force_and_end_torque_weighted": bending_and_end_load_and_end_force_and_end_torque_weighted,
-    "bending_with_rest_and_end_load_and_end_force_and_end_torque": bending_with_rest_and_end_load_and_end_force_and_end_torque,
-    "bending_with_rest_and_end_load_and_end_force_and_end_torque_weighted": bending_with_rest_and_end_load_and_end_force_and_end_torque_weighted,
-    "bending_and_end_load_and_self_weight": bending_and_end_load_and_self_weight,
-    "bending_and_end_load_and_self_weight_weighted": bending_and_end_load_and_self_weight_weighted,
-    "bending_with_rest_and_end_load_and_self_weight": bending_with_rest_and_end_load_and_self_weight,
-    "bending_with_rest_and_end_load_and_self_weight_weighted": bending_with_rest_and_end_load_and_self_weight_weighted,
-    "bending_and_end_load_and_foundation": bending_and_end_load_and_foundation,
-    "bending_and_end_load_and_foundation_weighted": bending_and_end_load_and_foundation_weighted,
-    "bending_with_rest_and_end_load_and_foundation": bending_with_rest_and_end_load_and_foundation,
-    "bending_with_rest_and_end_load_and_foundation_weighted": bending_with_rest_and_end_load_and_foundation_weighted,
-    "bending_and_end_load_and_shearable": bending_and_end_load_and_shearable,
-    "bending_and_end_load_and_shearable_weighted": bending_and_end_load_and_shearable_weighted,
-    "bending_with_rest_and_end_load_and_shearable": bending_with_rest_and_end_load_and_shearable,
-    "bending_with_rest_and_end_load_and_shearable_weighted": bending_with_rest_and_end_load_and_shearable_weighted,
+    'bending_and_end_load_and_end_force': bending_and_end_load_and_end_force,
+    'bending_and_end_load_and_end_force_weighted': bending_and_end_load_and_end_force_weighted,
+    'bending_with_rest_and_end_load_and_end_force': bending_with_rest_and_end_load_and_end_force,
+    'bending_with_rest_and_end_load_and_end_force_weighted': bending_with_rest_and_end_load_and_end_force_weighted,
+    'bending_and_end_load_and_end_torque': bending_and_end_load_and_end_torque,
+    'bending_and_end_load_and_end_torque_weighted': bending_and_end_load_and_end_torque_weighted,
+    'bending_with_rest_and_end_load_and_end_torque': bending_with_rest_and_end_load_and_end_torque,
+    'bending_with_rest_and_end_load_and_end_torque_weighted': bending_with_rest_and_end_load_and_end_torque_weighted,
+    'bending_and_end_load_and_end_force_and_end_torque': bending_and_end_load_and_end_force_and_end_torque,
+    'bending_and_end_load_and_end_force_and_end_torque_weighted': bending_and_end_load_and_end_force_and_end_torque_weighted,
+    'bending_with_rest_and_end_load_and_end_force_and_end_torque': bending_with_rest_and_end_load_and_end_force_and_end_torque,
+    'bending_with_rest_and_end_load_and_end_force_and_end_torque_weighted': bending_with_rest_and_end_load_and_end_force_and_end_torque_weighted,
+    'bending_and_end_load_and_self_weight': bending_and_end_load_and_self_weight,
+    'bending_and_end_load_and_self_weight_weighted': bending_and_end_load_and_self_weight_weighted,
+    'bending_with_rest_and_end_load_and_self_weight': bending_with_rest_and_end_load_and_self_weight,
+    'bending_with_rest_and_end_load_and_self_weight_weighted': bending_with_rest_and_end_load_and_self_weight_weighted,
+    'bending_and_end_load_and_foundation': bending_and_end_load_and_foundation,
+    'bending_and_end_load_and_foundation_weighted': bending_and_end_load_and_foundation_weighted,
+    'bending_with_rest_and_end_load_and_foundation': bending_with_rest_and_end_load_and_foundation,
+    'bending_with_rest_and_end_load_and_foundation_weighted': bending_with_rest_and_end_load_and_foundation_weighted,
+    'bending_and_end_load_and_shearable': bending_and_end_load_and_shearable,
+    'bending_and_end_load_and_shearable_weighted': bending_and_end_load_and_shearable_weighted,
+    'bending_with_rest_and_end_load_and_shearable': bending_with_rest_and_end_load_and_shearable,
+    'bending_with_rest_and_end_load_and_shearable_weighted': bending_with_rest_and_end_load_and_shearable_weighted,
 }
 
 DENSITIES: dict[str, Any] = {
-    "limit_of_bending_and_end_load_and_end_force": limit_of_bending_and_end_load_and_end_force,
-    "limit_of_bending_with_rest_and_end_load_and_end_force": limit_of_bending_with_rest_and_end_load_and_end_force,
-    "limit_of_bending_and_end_load_and_end_torque": limit_of_bending_and_end_load_and_end_torque,
-    "limit_of_bending_with_rest_and_end_load_and_end_torque": limit_of_bending_with_rest_and_end_load_and_end_torque,
-    "limit_of_bending_and_end_load_and_end_force_and_end_torque": limit_of_bending_and_end_load_and_end_force_and_end_torque,
-    "limit_of_bending_with_rest_and_end_load_and_end_force_and_end_torque": limit_of_bending_with_rest_and_end_load_and_end_force_and_end_torque,
-    "limit_of_bending_and_end_load_and_self_weight": limit_of_bending_and_end_load_and_self_weight,
-    "limit_of_bending_with_rest_and_end_load_and_self_weight": limit_of_bending_with_rest_and_end_load_and_self_weight,
-    "limit_of_bending_and_end_load_and_foundation": limit_of_bending_and_end_load_and_foundation,
-    "limit_of_bending_with_rest_and_end_load_and_foundation": limit_of_bending_with_rest_and_end_load_and_foundation,
-    "limit_of_bending_and_end_load_and_shearable": limit_of_bending_and_end_load_and_shearable,
-    "limit_of_bending_with_rest_and_end_load_and_shearable": limit_of_bending_with_rest_and_end_load_and_shearable,
+    'limit_of_bending_and_end_load_and_end_force': limit_of_bending_and_end_load_and_end_force,
+    'limit_of_bending_with_rest_and_end_load_and_end_force': limit_of_bending_with_rest_and_end_load_and_end_force,
+    'limit_of_bending_and_end_load_and_end_torque': limit_of_bending_and_end_load_and_end_torque,
+    'limit_of_bending_with_rest_and_end_load_and_end_torque': limit_of_bending_with_rest_and_end_load_and_end_torque,
+    'limit_of_bending_and_end_load_and_end_force_and_end_torque': limit_of_bending_and_end_load_and_end_force_and_end_torque,
+    'limit_of_bending_with_rest_and_end_load_and_end_force_and_end_torque': limit_of_bending_with_rest_and_end_load_and_end_force_and_end_torque,
+    'limit_of_bending_and_end_load_and_self_weight': limit_of_bending_and_end_load_and_self_weight,
+    'limit_of_bending_with_rest_and_end_load_and_self_weight': limit_of_bending_with_rest_and_end_load_and_self_weight,
+    'limit_of_bending_and_end_load_and_foundation': limit_of_bending_and_end_load_and_foundation,
+    'limit_of_bending_with_rest_and_end_load_and_foundation': limit_of_bending_with_rest_and_end_load_and_foundation,
+    'limit_of_bending_and_end_load_and_shearable': limit_of_bending_and_end_load_and_shearable,
+    'limit_of_bending_with_rest_and_end_load_and_shearable': limit_of_bending_with_rest_and_end_load_and_shearable,
 }

@@ -17,6 +17,7 @@ import numpy as np
 
 from rodlab.mechanics.resolution import softening
 from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.constrained import Constrained
 from rodlab.numerics.factor import inertia_of, solve
 from rodlab.numerics.inertia import Symmetric
 from rodlab.numerics.mesh import halved
@@ -80,8 +81,8 @@ class Straight:
                 if not (np.isfinite(w).all() and size > 0):
                     return None
                 w = w / size
-                value, rounding = quadratic(matrix, w)
-                slope = (quadratic(plus, w)[0] - quadratic(minus, w)[0]) / (2 * e)
+                value, rounding = _quotient(matrix, w)
+                slope = (_quotient(plus, w)[0] - _quotient(minus, w)[0]) / (2 * e)
             if slope == 0:
                 return None
             moved, off = p - value / slope, abs(rounding / slope)
@@ -94,6 +95,15 @@ class Straight:
                 return p, off + change + 2 * EPS * abs(p), w
             last = change if sweep > 2 else np.inf
         return None
+
+
+def _quotient(matrix: Any, w: Array) -> tuple[float, float]:
+    """w . M w and a bound on its rounding, of a rod by what its blocks were summed from: a jump of K costs no digits."""
+    if isinstance(matrix, Constrained):
+        return matrix.quadratic(w, of=_quotient)
+    parts = getattr(matrix, "parts", None)
+    known: tuple[float, float] = quadratic(matrix, w) if parts is None else parts(w)
+    return known
 
 
 def straight_loads(model: Any, numbers: Sequence[int]) -> Iterator[Load]:
@@ -216,9 +226,8 @@ class _Looked:
                 found += [Bracket(last, float(p), j, step) for j in passed]
             last, before = float(p), here
         if number > len(found):
-            raise ValueError(
-                f"modes must be at most {len(found)}, the number of loads below {self.limit:g}, which crushes the rod; it is {number}"
-            )
+            most = f"{len(found)}, the number of loads below {self.limit:g}, which crushes the rod"
+            raise ValueError(f"modes must be at most {most}; it is {number}")
         return found[number - 1]
 
     @staticmethod

@@ -135,6 +135,7 @@ class Strut:
         self.springs = Springs(joints.k)
         self._bend(curved=joints.curved)
         self.x0 = 0.0  # of the foot
+        self.last_foot: tuple[float, strut_ends.Foot] | None = None
         self.parameters: dict[str, Any] = {"k": joints.k, "beta": joints.beta, "h": joints.h, "w": joints.w}
         self.at_foot: dict[str, float] = {}
         for term in self.terms:
@@ -172,6 +173,7 @@ class Strut:
 
     def _renewed(self, *more: str) -> "Strut":
         """Itself without what was computed for other joints and parameters."""
+        self.last_foot = None
         for name in ("places", "carried", "symmetries", *more):
             self.__dict__.pop(name, None)
         return self

@@ -37,10 +37,16 @@ class Foot(NamedTuple):
 
 
 def foot(strut: "Strut", lam: float) -> Foot:
-    """The foot's link; nothing where the rule gives it no length."""
-    j, link = strut.joints, strut.kernel()
-    if j.last_weight == 1:
+    """The foot's link; nothing where the rule gives it no length. Kept for the last load that was asked for."""
+    if strut.joints.last_weight == 1:
         return Foot()
+    if strut.last_foot is None or strut.last_foot[0] != lam:
+        strut.last_foot = lam, _foot(strut, lam)
+    return strut.last_foot[1]
+
+
+def _foot(strut: "Strut", lam: float) -> Foot:
+    j, link = strut.joints, strut.kernel()
     at = {**strut.at_foot, "h": j.h, "w": 1 - j.last_weight, "k": 0.0, "beta": 0.0}
     given: dict[str, Any] = {name: at.get(name, strut.parameters.get(name)) for name in link.parameters}
     angle, place = np.full(1, j.phi0), (np.full(1, strut.x0), np.zeros(1))
@@ -70,8 +76,9 @@ def reach(strut: "Strut", u: Array, lam: float) -> tuple[Array, Array]:
 def boundary(strut: "Strut", name: str, u: Array, lam: float) -> float:
     """dV/d(name) of a boundary value."""
     if name in FORCES:
-        x, z = reach(strut, u, lam)
-        return float(z[-1]) if name == "lam" else -float(x[-1])
+        parts = strut.kernel().reach(strut.below(u), u, lam, **strut.given(strut.kernel()))
+        x, z = (float(np.sum(part)) + first for part, first in zip(parts, foot(strut, lam).reach, strict=True))
+        return z if name == "lam" else -x - strut.x0
     if name == "tau":
         return -float(u[-1])
     X, Z = _forces(strut, u)
@@ -111,6 +118,8 @@ def second(strut: "Strut", one: str, other: str, u: Array, lam: float) -> float:
     if pair == {"x0", "N1"}:
         return -1.0
     link, own = strut.kernel(), foot(strut, lam)
+    if pair <= set(FORCES) and not link.yields:
+        return 0.0
     given, below = strut.given(link), strut.below(u)
     if pair <= set(FORCES):
         which = len(pair - {"lam"}) + (one == other == "N1")

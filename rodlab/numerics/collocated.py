@@ -88,7 +88,7 @@ class Collocated(Symmetric):
         blocks[:-1, m, m] += blocks[1:, 0, 0]
         blocks[:, 0, 0] = 0.0  # a shared corner is kept once
         self.blocks, self.N, self.m = blocks, N, m
-        self.parts: Callable[[Array], tuple[float, float]] | None = None  # x -> x . A x by what the blocks were summed from
+        self.parts: Callable[[Array], tuple[float, float]] | None = None  # x -> x . A x, by what the blocks were summed from
         self.layout = layout(N, m) if places is None else places
 
     @property
@@ -132,12 +132,6 @@ class Collocated(Symmetric):
         nodal[0, 0] = 0.0
         nodal[1:, 0] = nodal[:-1, -1]
         return nodal
-
-    def quadratic(self, x: Array) -> tuple[float, float]:
-        """x . A x and a bound on its rounding: by what the blocks were summed from, where that is known."""
-        if self.parts is not None:
-            return self.parts(x)
-        return float(x @ (self @ x)), 4 * self.m * EPS * float(np.abs(x) @ (abs(self) @ np.abs(x)))
 
     @staticmethod
     def gathered(nodal: Array) -> Array:

@@ -9,6 +9,7 @@ that obey it is that of the whole matrix less c [Haynsworth 1968; Maddocks 1987:
     index = index(A) + index(D - B^T A^{-1} B) - c
 """
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
@@ -22,6 +23,7 @@ from rodlab.numerics.nullspace import quadratic
 
 NUDGES = (1.0, 8.0, 64.0, 512.0)  # shifts tried where A itself is singular to within rounding
 CLEAR = 64 * EPS  # of the parts of the small matrix
+TRUSTED = 1e-6  # relative size of a refinement above which elimination is not trusted
 
 
 class Constrained(Symmetric):
@@ -64,10 +66,10 @@ class Constrained(Symmetric):
     def __abs__(self) -> "Constrained":
         return Constrained(abs(self.matrix), np.abs(self.border), np.abs(self.corner), self.constraints)
 
-    def quadratic(self, x: Array) -> tuple[float, float]:
-        """x . A x and a bound on its rounding."""
+    def quadratic(self, x: Array, of: Callable[[Any, Array], tuple[float, float]] = quadratic) -> tuple[float, float]:
+        """x . A x and a bound on its rounding; `of` knows that of the matrix A alone."""
         p, y = x[: self.width], x[self.width :]
-        value, rounding = quadratic(self.matrix, y)
+        value, rounding = of(self.matrix, y)
         rest = 2 * float(p @ (self.border.T @ y)) + float(p @ self.corner @ p)
         size = 2 * float(np.abs(p) @ (np.abs(self.border).T @ np.abs(y))) + float(np.abs(p) @ np.abs(self.corner) @ np.abs(p))
         return value + rest, rounding + 4 * EPS * size
@@ -141,22 +143,47 @@ class Constrained(Symmetric):
 
 
 class ConstrainedFactor:
-    """The factor of A, and block elimination of the border that is stable where A is singular."""
+    """The factor of A and X = A^{-1} B; where A is too near singular for these, block elimination of the border [Govaerts]."""
 
     def __init__(self, matrix: Constrained) -> None:
-        self.matrix = matrix
-        A = matrix.matrix
-        self._bordered = Bordered(A, factor(A), B=matrix.border, C=matrix.border, D=matrix.corner)
+        self.matrix, self.known = matrix, factor(matrix.matrix)
+        with np.errstate(all="ignore"):
+            self.X = np.column_stack([self.known.solve(b) for b in matrix.border.T])
+            self.small = matrix.corner - matrix.border.T @ self.X
+        self.plain = bool(np.isfinite(self.small).all())
+
+    @cached_property
+    def _bordered(self) -> Bordered:
+        matrix = self.matrix
+        return Bordered(matrix.matrix, self.known, B=matrix.border, C=matrix.border, D=matrix.corner)
 
     def solve(self, b: Array, /) -> Array:
-        """(p, y), refined once."""
-        m = self.matrix.width
-        x = np.zeros_like(b)
-        for _ in range(2):
+        """(p, y), refined once; where that shows A to be too near singular by elimination of the border, and refined twice."""
+        if self.plain:
+            x = self._eliminated(b)
+            if x is not None:
+                left = b - self.matrix @ x
+                step = self._eliminated(left)
+                if step is not None and float(np.abs(step).max()) <= TRUSTED * float(np.abs(x).max(initial=0.0)):
+                    return x + step
+            self.plain = False
+        m, x = self.matrix.width, np.zeros_like(b)
+        for _ in range(3):
             left = b - self.matrix @ x
             y, p = self._bordered.solve_once(left[m:], left[:m])
             x = x + np.append(p, y)
         return x
+
+    def _eliminated(self, b: Array) -> Array | None:
+        m = self.matrix.width
+        with np.errstate(all="ignore"):
+            y = self.known.solve(b[m:])
+            try:
+                p = np.linalg.solve(self.small, b[:m] - self.matrix.border.T @ y)
+            except np.linalg.LinAlgError:
+                return None
+            x = np.append(p, y - self.X @ p)
+        return x if np.isfinite(x).all() else None
 
     def solve_transposed(self, b: Array, /) -> Array:
         """The same: the matrix is symmetric."""

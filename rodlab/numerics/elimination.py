@@ -2,8 +2,8 @@
 
 Every second block S is eliminated at once, its eigenvalues counted, and its neighbours take -B S^{-1} B^T [Haynsworth 1968];
 then of those left every second, ... By themselves the blocks eliminated are short cantilevers, but in the last few steps, so
-that S is seldom near singular. Whatever rounding may do to a block is taken from its diagonal, or added to it, before its eigenvalues
-are counted: the counts are of matrices below and above the exact one (Loewner's order), which hold its index between them.
+that S is seldom near singular. Whatever rounding may do to a block is taken from its diagonal, or added to it, before its
+eigenvalues are counted: the counts are of matrices below and above the exact one (Loewner's order); its index lies between.
 """
 
 import numpy as np
