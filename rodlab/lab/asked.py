@@ -16,6 +16,7 @@ from rodlab.lab.charts import diagram_tables, equilibria_table, of_diagram, of_e
 from rodlab.lab.equilibria import all_equilibria
 from rodlab.lab.scene import Scene
 from rodlab.lab.table import table
+from rodlab.mechanics.joints import RULES
 from rodlab.mechanics.recipe import build
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import number
@@ -26,13 +27,13 @@ class Answer(NamedTuple):
 
     said: dict[str, Any]
     text: str
-    draw: Callable[[], Any]
+    draw: Callable[[], Any] | None
     complete: bool
 
 
 def asked(scene: Scene) -> dict[str, Answer]:
     """The answers to a scene's questions, by name."""
-    every = {"diagram": _diagram, "equilibria": _equilibria, "breaking": _breaking}
+    every = {"diagram": _diagram, "equilibria": _equilibria, "breaking": _breaking, "agreement": _agreement}
     return {name: every.get(name, _study)(scene, options) for name, options in scene.asks.items()}
 
 
@@ -84,6 +85,15 @@ def _breaking(scene: Scene, options: Mapping[str, Any]) -> Answer:
     tips = {"imperfection": found.small, "tip_angle": found.tips, "root": found.root}
     said = {"lam": found.event.lam, "strength": found.imperfection.strength, "cusp": columns, "tips": tips}
     return Answer(said, _laws(found), draw, complete=True)
+
+
+def _agreement(_: Scene, options: Mapping[str, Any]) -> Answer:
+    from rodlab.lab.agreement import agreement, agreement_table, of_agreement
+
+    found = agreement(options.get("case", []), options.get("joints", [50, 100, 200, 400]))
+    return Answer(
+        {"cases": of_agreement(found)}, agreement_table(found), None, all(one.holds(rule) for one in found for rule in RULES)
+    )
 
 
 def _study(scene: Scene, _: Mapping[str, Any]) -> Answer:

@@ -46,7 +46,7 @@ def pictures(chosen: Scene, shown: Sequence[Shown], answers: "Mapping[str, Answe
     """The scene's pictures as PNG, by name."""
     from rodlab.lab.picture import branches_picture, png
 
-    drawn = {name: png(answer.draw()) for name, answer in answers.items()}
+    drawn = {name: png(answer.draw()) for name, answer in answers.items() if answer.draw is not None}
     if shown:
         drawn["diagram"] = png(branches_picture(shown, str(chosen.draw.get("y", "tip_angle")), _label(chosen)))
     return drawn

@@ -12,6 +12,7 @@ nothing is drawn. Scenes of the house are called by name, your own by path. In p
     [diagram]       from, to, detached            every branch in a window of loads
     [equilibria]    lam, n                        every equilibrium at a load, for several n, on the standard map
     [breaking]      parameter, most, show         a pitchfork and its imperfection
+    [agreement]     case, joints                  strut against rod, in one table of orders
     [convergence], [work-precision], [stability]  a study: see `rodlab.lab.studies`; [stability] needs no [model]
 """
 
@@ -42,6 +43,7 @@ ASKS = {
     "diagram": ("from", "to", "detached"),
     "equilibria": ("lam", "n"),
     "breaking": ("parameter", "most", "show"),
+    "agreement": ("case", "joints"),
     "convergence": ("methods", "joints", "intervals", "ask", "quick", "shapes"),
     "work-precision": ("ask", "methods", "repeats", "quick"),
     "stability": ("grid",),

@@ -56,8 +56,14 @@ class LinkDerivation:
 
 
 def energy_of(terms: Sequence[Term], link: Link) -> Expr:
-    """Sum of the terms' energies of one link."""
-    return sympy.Add(*(_energy(term)(link) for term in terms))
+    """Sum of the terms' energies of one link. Raises `ValueError` for terms that do not go together."""
+    e = sympy.Add(*(_energy(term)(link) for term in terms))
+    if any(term.name == "shearable" for term in terms) and e.has(link.x, link.z):
+        other = next(term.name for term in terms if _energy(term)(link).has(link.x, link.z))
+        raise ValueError(
+            f"a rod that shears or extends bears no load on its length (its strains are those of end loads): {other}"
+        )
+    return e
 
 
 def pushed(terms: Sequence[Term]) -> bool:
@@ -169,6 +175,7 @@ def _class_source(d: LinkDerivation) -> str:
         f'    """e = {d.energy}"""\n\n'
         f"    parameters = {d.parameters!r}\n"
         f"    places = {places}\n"
+        f"    aside = {not d.forces[0].is_zero}\n"
         f"    hardens = {any(not e.is_zero for e in d.hardening)}\n"
         f"    yields = {any(not e.is_zero for e in d.yielding)}\n"
     )

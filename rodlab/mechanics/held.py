@@ -99,7 +99,7 @@ class Held:
             raise ValueError(f"phi1 must be zero where the top is {top}, whose angle is not held; it is {phi1:g}")
         if offset and not (held and foot not in SLIDES):
             raise ValueError(f"offset must be zero unless both ends hold the place; it is {offset:g} with ends {ends}")
-        sliding = foot in SLIDES and base.kernel().places
+        sliding = foot in SLIDES and base.kernel().aside
         pushed = held and (foot not in SLIDES or sliding)
         self.unknowns = tuple(
             name
@@ -211,10 +211,9 @@ class Held:
 
     def _balanced(self, u: Array) -> Array:
         """The multipliers that come nearest to balance at these angles, by least squares."""
-        value = 0.0
         free = [i for i, name in enumerate(self.unknowns) if name in MULTIPLIERS]
         if free and u[len(self.unknowns) :].any():
-            model, phi, lam = self.acting(u, value)
+            model, phi, lam = self.acting(u, self.value)
             columns = np.column_stack([model.column(self.unknowns[i], phi, lam) for i in free])
             u[free] = np.linalg.lstsq(columns, -model.residual(phi, lam), rcond=None)[0]
         return u

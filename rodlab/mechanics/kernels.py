@@ -13,13 +13,15 @@ class Kernel(Protocol):
     """Plain numpy functions of the links' angles a, b (n,), the load, and the parameters by name.
 
     `energy`, `moments` (m, f), `stiffness` (k, c, c_below), `moments_lam` (dm/dlam, df/dlam), `reach` (dx, dz) of a link and
-    `yielding`, the second derivatives in the loads lam and N1; where `places`,
+    `yielding`, the second derivatives in the loads lam and N1; where `places`
+    (the energy depends on the place; `aside`: on x),
     also `forces` (e_x, e_z) and, where `hardens`, `hardening` (e_xx, e_xz, e_zz), of the joints' x, z (n,).
     `moments_k`, `forces_q`, ...: the same differentiated in a parameter.
     """
 
     parameters: tuple[str, ...]
     places: bool
+    aside: bool
     hardens: bool
     yields: bool
 

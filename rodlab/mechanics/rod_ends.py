@@ -36,7 +36,7 @@ def boundary(rod: "Rod", name: str, u: Array, lam: float) -> float:
     W, grid = rod.kernel(), rod.grid
     angle, _ = rod.at_gauss(u)
     X, _ = W.forces(*rod_places.places(rod, angle, grid), **rod.given(W))
-    return float(np.sum(grid.hb * X))
+    return float(np.sum(grid.hb * X)) - float(rod.parameters.get("N1", 0.0))
 
 
 def column(rod: "Rod", name: str, u: Array, lam: float) -> Array:

@@ -16,6 +16,7 @@ class bending:
 
     parameters = ('k',)
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -45,6 +46,7 @@ class bending_with_rest:
 
     parameters = ('beta', 'k')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -78,6 +80,7 @@ class bending_and_end_load:
 
     parameters = ('h', 'k')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -115,6 +118,7 @@ class bending_and_end_load_weighted:
 
     parameters = ('h', 'k', 'w')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -153,6 +157,7 @@ class bending_with_rest_and_end_load:
 
     parameters = ('beta', 'h', 'k')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -194,6 +199,7 @@ class bending_with_rest_and_end_load_weighted:
 
     parameters = ('beta', 'h', 'k', 'w')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -236,6 +242,7 @@ class limit_of_bending:
 
     parameters = ('K',)
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -265,6 +272,7 @@ class limit_of_bending_with_rest:
 
     parameters = ('K', 'u_hat')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -298,6 +306,7 @@ class limit_of_bending_and_end_load:
 
     parameters = ('K',)
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -335,6 +344,7 @@ class limit_of_bending_with_rest_and_end_load:
 
     parameters = ('K', 'u_hat')
     places = False
+    aside = False
     hardens = False
     yields = False
 

@@ -16,6 +16,7 @@ class bending_and_end_load_and_end_force:
 
     parameters = ('N1', 'h', 'k')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -57,6 +58,7 @@ class bending_and_end_load_and_end_force_weighted:
 
     parameters = ('N1', 'h', 'k', 'w')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -100,6 +102,7 @@ class bending_with_rest_and_end_load_and_end_force:
 
     parameters = ('N1', 'beta', 'h', 'k')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -145,6 +148,7 @@ class bending_with_rest_and_end_load_and_end_force_weighted:
 
     parameters = ('N1', 'beta', 'h', 'k', 'w')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -192,6 +196,7 @@ class bending_and_end_load_and_end_torque:
 
     parameters = ('h', 'k', 'tau')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -234,6 +239,7 @@ class bending_and_end_load_and_end_torque_weighted:
 
     parameters = ('h', 'k', 'tau', 'w')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -277,6 +283,7 @@ class bending_with_rest_and_end_load_and_end_torque:
 
     parameters = ('beta', 'h', 'k', 'tau')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -323,6 +330,7 @@ class bending_with_rest_and_end_load_and_end_torque_weighted:
 
     parameters = ('beta', 'h', 'k', 'tau', 'w')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -370,6 +378,7 @@ class bending_and_end_load_and_end_force_and_end_torque:
 
     parameters = ('N1', 'h', 'k', 'tau')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -416,6 +425,7 @@ class bending_and_end_load_and_end_force_and_end_torque_weighted:
 
     parameters = ('N1', 'h', 'k', 'tau', 'w')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -463,6 +473,7 @@ class bending_with_rest_and_end_load_and_end_force_and_end_torque:
 
     parameters = ('N1', 'beta', 'h', 'k', 'tau')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -513,6 +524,7 @@ class bending_with_rest_and_end_load_and_end_force_and_end_torque_weighted:
 
     parameters = ('N1', 'beta', 'h', 'k', 'tau', 'w')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -564,6 +576,7 @@ class bending_and_end_load_and_self_weight:
 
     parameters = ('h', 'k', 'q')
     places = True
+    aside = False
     hardens = False
     yields = False
 
@@ -621,6 +634,7 @@ class bending_and_end_load_and_self_weight_weighted:
 
     parameters = ('h', 'k', 'q', 'w')
     places = True
+    aside = False
     hardens = False
     yields = False
 
@@ -680,6 +694,7 @@ class bending_with_rest_and_end_load_and_self_weight:
 
     parameters = ('beta', 'h', 'k', 'q')
     places = True
+    aside = False
     hardens = False
     yields = False
 
@@ -745,6 +760,7 @@ class bending_with_rest_and_end_load_and_self_weight_weighted:
 
     parameters = ('beta', 'h', 'k', 'q', 'w')
     places = True
+    aside = False
     hardens = False
     yields = False
 
@@ -812,6 +828,7 @@ class bending_and_end_load_and_foundation:
 
     parameters = ('c', 'h', 'k')
     places = True
+    aside = True
     hardens = True
     yields = False
 
@@ -869,6 +886,7 @@ class bending_and_end_load_and_foundation_weighted:
 
     parameters = ('c', 'h', 'k', 'w')
     places = True
+    aside = True
     hardens = True
     yields = False
 
@@ -928,6 +946,7 @@ class bending_with_rest_and_end_load_and_foundation:
 
     parameters = ('beta', 'c', 'h', 'k')
     places = True
+    aside = True
     hardens = True
     yields = False
 
@@ -993,6 +1012,7 @@ class bending_with_rest_and_end_load_and_foundation_weighted:
 
     parameters = ('beta', 'c', 'h', 'k', 'w')
     places = True
+    aside = True
     hardens = True
     yields = False
 
@@ -1060,6 +1080,7 @@ class bending_and_end_load_and_shearable:
 
     parameters = ('extension', 'h', 'k', 'shear')
     places = False
+    aside = False
     hardens = False
     yields = True
 
@@ -1111,6 +1132,7 @@ class bending_and_end_load_and_shearable_weighted:
 
     parameters = ('extension', 'h', 'k', 'shear', 'w')
     places = False
+    aside = False
     hardens = False
     yields = True
 
@@ -1165,6 +1187,7 @@ class bending_with_rest_and_end_load_and_shearable:
 
     parameters = ('beta', 'extension', 'h', 'k', 'shear')
     places = False
+    aside = False
     hardens = False
     yields = True
 
@@ -1220,6 +1243,7 @@ class bending_with_rest_and_end_load_and_shearable_weighted:
 
     parameters = ('beta', 'extension', 'h', 'k', 'shear', 'w')
     places = False
+    aside = False
     hardens = False
     yields = True
 
@@ -1278,6 +1302,7 @@ class limit_of_bending_and_end_load_and_end_force:
 
     parameters = ('K', 'N1')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -1319,6 +1344,7 @@ class limit_of_bending_with_rest_and_end_load_and_end_force:
 
     parameters = ('K', 'N1', 'u_hat')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -1364,6 +1390,7 @@ class limit_of_bending_and_end_load_and_end_torque:
 
     parameters = ('K', 'tau')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -1405,6 +1432,7 @@ class limit_of_bending_with_rest_and_end_load_and_end_torque:
 
     parameters = ('K', 'tau', 'u_hat')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -1450,6 +1478,7 @@ class limit_of_bending_and_end_load_and_end_force_and_end_torque:
 
     parameters = ('K', 'N1', 'tau')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -1495,6 +1524,7 @@ class limit_of_bending_with_rest_and_end_load_and_end_force_and_end_torque:
 
     parameters = ('K', 'N1', 'tau', 'u_hat')
     places = False
+    aside = False
     hardens = False
     yields = False
 
@@ -1544,6 +1574,7 @@ class limit_of_bending_and_end_load_and_self_weight:
 
     parameters = ('K', 'q')
     places = True
+    aside = False
     hardens = False
     yields = False
 
@@ -1601,6 +1632,7 @@ class limit_of_bending_with_rest_and_end_load_and_self_weight:
 
     parameters = ('K', 'q', 'u_hat')
     places = True
+    aside = False
     hardens = False
     yields = False
 
@@ -1666,6 +1698,7 @@ class limit_of_bending_and_end_load_and_foundation:
 
     parameters = ('K', 'c')
     places = True
+    aside = True
     hardens = True
     yields = False
 
@@ -1723,6 +1756,7 @@ class limit_of_bending_with_rest_and_end_load_and_foundation:
 
     parameters = ('K', 'c', 'u_hat')
     places = True
+    aside = True
     hardens = True
     yields = False
 
@@ -1788,6 +1822,7 @@ class limit_of_bending_and_end_load_and_shearable:
 
     parameters = ('K', 'extension', 'shear')
     places = False
+    aside = False
     hardens = False
     yields = True
 
@@ -1843,6 +1878,7 @@ class limit_of_bending_with_rest_and_end_load_and_shearable:
 
     parameters = ('K', 'extension', 'shear', 'u_hat')
     places = False
+    aside = False
     hardens = False
     yields = True
 

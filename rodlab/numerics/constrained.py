@@ -132,9 +132,9 @@ class Constrained(Symmetric):
             lost = np.abs(X).T @ np.abs(left) + CLEAR * (np.abs(self.corner) + np.abs(self.border).T @ np.abs(X))
         if not (np.isfinite(S).all() and np.isfinite(lost).all()):
             return 0, self.width
-        scale = np.sqrt(np.maximum(np.abs(np.diagonal(S)), np.finfo(float).tiny))  # entries of any size: forces beside angles
-        w = np.linalg.eigvalsh((S + S.T) / 2 / np.outer(scale, scale))
-        off = float((lost / np.outer(scale, scale)).sum(axis=1).max()) + CLEAR * self.width
+        S, lost = _balanced((S + S.T) / 2, lost)  # entries of any size: forces beside angles
+        w = np.linalg.eigvalsh(S)
+        off = float(lost.sum(axis=1).max()) + CLEAR * self.width
         return int((w < -off).sum()), int((w <= off).sum())
 
     @cached_property
@@ -197,6 +197,15 @@ class ConstrainedFactor:
     def inertia(self) -> Inertia:
         """Signs of the eigenvalues of the constrained form."""
         return self.matrix.inertia()
+
+
+def _balanced(S: Array, lost: Array) -> tuple[Array, Array]:
+    """S and its rounding, scaled from both sides so that the largest entry of every row is about one [Ruiz 2001]."""
+    for _ in range(6):
+        size = np.sqrt(np.abs(S).max(axis=1))
+        size[size == 0] = 1.0
+        S, lost = S / np.outer(size, size), lost / np.outer(size, size)
+    return S, lost
 
 
 def _refined(matrix: Any, known: Any, b: Array) -> Array:
