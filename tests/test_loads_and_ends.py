@@ -123,7 +123,7 @@ def test_following_the_shortening_brings_the_load_up_to_the_figure_of_eight():
     assert all(p.index_verified and p.index == int(p.lam > 1) for p in b.points)
     (met,) = [e for e in b.events if e.kind == "branch point"]
     assert met.lam == pytest.approx(1.0, abs=1e-9)
-    m = float(mp.findroot(lambda m: 2 * mp.ellipe(m) - mp.ellipk(m), 0.8))
+    m = float(mp.findroot(lambda m: 2 * mp.ellipe(m) - mp.ellipk(m), (0.7, 0.9), solver="anderson"))
     assert met.point.measure("load") == pytest.approx(16 * ellipk(m) ** 2, rel=1e-3)  # of the rod; this strut has 80 joints
 
 
@@ -241,6 +241,23 @@ def test_what_snaps_under_weights_does_not_in_a_vice(model):
         bordered = np.block([[np.zeros((1, 1)), g[None]], [g[:, None], H]])
         assert (np.linalg.eigvalsh(bordered) < 0).sum() - 1 == 0
     assert fold.lam < 4.0
+
+
+def test_a_clamped_hinged_rod_by_one_and_by_two_constraints():
+    """Its load rises to 1.1386 times the buckling load and falls: unstable from there under weights, not in a vice."""
+    model = rl.Rod(ends=("clamped", "hinged"))
+    straight = rl.follow(rl.equilibrium(model, 0.0), to=22.0)
+    b = rl.follow(rl.switch(straight.events[0])[0], to=28.0)
+    (fold,) = [e for e in b.events if e.kind == "fold"]
+    assert fold.lam / straight.events[0].lam == pytest.approx(1.1386, abs=1e-3)
+    after = [rl.indices(p) for p in b.points if p.index == 1]
+    assert after
+    assert {(found.dead_load.negative, found.shortening.negative) for found in after} == {(1, 0)}
+    vice = rl.follow(
+        rl.equilibrium(rl.vary(model, "shortening"), 1 - b.points[-1].height, lambda s: b.points[-1](s).phi), to=0.05
+    )
+    assert max(p.measure("load") for p in vice.points) <= fold.lam + 1e-9
+    assert {p.index for p in vice.points} == {0}  # no fold in the shortening
 
 
 def test_clamped_clamped_by_one_and_by_two_constraints():

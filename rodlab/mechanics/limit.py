@@ -197,7 +197,8 @@ class Limit:
             kernels += [("forces", placed, forces), ("hardening", placed, hardening)]
             kernels += [(f"forces_{x.name}", placed, tuple(tidy(force.diff(x)) for force in forces)) for x in symbols]
         head = f'class {self.name}:\n    """W = {self.density}"""\n\n    parameters = {self.parameters!r}\n'
-        head += f"    places = {self.placed}\n    aside = {not forces[0].is_zero}\n    hardens = {any(not e.is_zero for e in hardening)}\n"
+        head += f"    places = {self.placed}\n    aside = {not forces[0].is_zero}\n"
+        head += f"    hardens = {any(not e.is_zero for e in hardening)}\n"
         head += f"    yields = {any(not e.is_zero for e in self.yielding)}\n"
         return head + "".join(method(*each) for each in kernels)
 

@@ -84,7 +84,7 @@ def boundary(strut: "Strut", name: str, u: Array, lam: float) -> float:
     X, Z = _forces(strut, u)
     own, link = foot(strut, lam), strut.kernel(lam)
     if name == "x0":
-        return float(X.sum()) + own.force[0] - strut.parameters.get("N1", 0.0)
+        return float(X.sum()) + own.force[0] - float(strut.parameters.get("N1", 0.0))
     m = full(link.moments(strut.below(u), u, lam, **strut.given(link))[0], strut.n)
     dx, dz = strut.places.by_foot
     return float(own.moment - m[0] - strut.parameters.get("tau", 0.0) + dx * X.sum() + dz * Z.sum())
