@@ -188,7 +188,7 @@ class Point:
     def error(self) -> float:
         """Estimate from above of the error of the tip angle (the last unknown), against the exact solution.
 
-        Where the tip's angle is held, of the largest angle; a model says by `observed` which of its unknowns that is.
+        Where the tip's angle is held, of the largest other one; a model says by `observed` which of its unknowns that is.
 
         Sum of what Newton left, of rounding of u, and of the residual and the bound on its rounding, carried to the tip
         by the adjoint v = J^{-T} e_n: of first order in these. Without the member `rounding` that bound is an

@@ -76,7 +76,8 @@ def buckling(model: Any, modes: int | Sequence[int] = 3) -> Buckling:
     """The first `modes` buckling loads of a strut or rod, or those of the mode numbers given; O(n) a mode.
 
     A model varied in another parameter has its critical values: `buckling(vary(column, "q", lam=0.0))`. With terms the first
-    may be negative; where the rod extends they are those below the load that would crush it, and every second one straightens it.
+    may be negative; where the rod extends they are those between none and the load that would crush it, and every second one
+    straightens it (a rod that shears more easily than it extends also buckles when pulled: `shear_loads`).
     Raises `ValueError` unless the model is straight and has so many modes.
 
     >>> b = buckling(Strut.from_joints(k=[1, 1]), 2)

@@ -101,11 +101,16 @@ class Held:
             raise ValueError(f"offset must be zero unless both ends hold the place; it is {offset:g} with ends {ends}")
         sliding = foot in SLIDES and base.kernel().aside
         pushed = held and (foot not in SLIDES or sliding)
+        given = any(term.name == "end_force" for term in self.terms)
+        if given and foot in SLIDES and not (sliding or pushed):
+            raise ValueError(f"N1 must have something to act against; with ends {ends} and no term of x the foot slides freely")
         self.unknowns = tuple(
             name
             for name, unknown in (("N1", pushed), ("tau", not angle_free), ("phi0", foot in TURNS), ("x0", sliding))
             if unknown
         )
+        if base.start().size + len(self.unknowns) < 2 * self.constraints:
+            raise ValueError(f"the ends {ends} hold more than {base.start().size} angles can obey; more joints are needed")
 
     # --- the cantilever under its reactions --------------------------------------------------------------------------
 
@@ -162,7 +167,11 @@ class Held:
             return model.jacobian(phi, lam)
         border = np.column_stack([model.column(name, phi, lam) for name in self.unknowns])
         corner = np.array([[model.second(a, b, phi, lam) for b in self.unknowns] for a in self.unknowns])
-        return Constrained(model.jacobian(phi, lam), border, corner, self.constraints)
+        return Constrained(model.jacobian(phi, lam), border, corner, self.constraints, self.blurred(0.0))
+
+    def blurred(self, off: float) -> Array:
+        """How far the border may be off, by columns, with angles known to `off` and rounding: those of loads turn with them."""
+        return np.array([self.base.lever * (off + 4 * EPS) if name in ("lam", "N1") else 0.0 for name in self.unknowns])
 
     def second_variation(self, u: Array, value: float) -> Any:
         """The same: its negative eigenvalues are counted on the directions that keep what is given."""

@@ -102,14 +102,15 @@ class HeldRod(Held, Rod):  # type: ignore[misc]  # what no bound is known for is
         return self.size - 2 * self.constraints
 
     def at_mesh(self, i: int) -> int:
-        """The place in u of the angle at the upper end of interval i."""
-        return len(self.unknowns) + (i + 1) * self.degree - 1
+        """The place in u of the angle at the upper end of interval i, or of reaction -1 - i."""
+        return len(self.unknowns) + (i + 1) * self.degree - 1 if i >= 0 else -1 - i
 
     def observed(self, u: Array) -> int:
-        """At which interval's end a point's error is told: the last or, where its angle is held, that of the largest angle."""
+        """Which angle a point's error is of, by its interval: the last; where that is held the largest other, or the couple."""
         if "tau" not in self.unknowns:
             return self.grid.N - 1
-        return int(np.abs(self.angles(u)[self.degree - 1 :: self.degree]).argmax())
+        inner = self.angles(u)[self.degree - 1 : -1 : self.degree]
+        return int(np.abs(inner).argmax()) if inner.size else -1 - self.unknowns.index("tau")
 
     # --- the cantilever's parts, at the unknowns u -------------------------------------------------------------------------
 

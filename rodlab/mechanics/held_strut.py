@@ -11,6 +11,7 @@ from rodlab.mechanics.strut import Strut
 from rodlab.mechanics.terms import Term
 from rodlab.mechanics.varied import VariedStrut
 from rodlab.numerics.arrays import EPS, Array
+from rodlab.numerics.constrained import Constrained
 from rodlab.numerics.inertia import Inertia
 
 
@@ -78,13 +79,17 @@ class HeldStrut(Held, Strut):  # type: ignore[misc]  # what no bound is known fo
             moved = (model.jacobian(phi + side * max(off, 1e-6), lam).toarray() for side in (1, -1))
             here = model.jacobian(phi, lam).toarray()
             slack = 10 * max(np.abs(other - here).sum(axis=1).max() for other in moved) * off / max(off, 1e-6)
+        if isinstance(matrix, Constrained):
+            matrix.noise = self.blurred(off)
         known: Inertia = matrix.inertia(slack)
         return known
 
     def observed(self, u: Array) -> int:
-        """Which unknown the error of a point is of: the angle of the tip or, where that is held, the largest."""
+        """Which unknown a point's error is of: the angle of the tip; where that is held the largest other, or the couple."""
         m = len(self.unknowns)
-        return m + int(np.abs(u[m:]).argmax()) if "tau" in self.unknowns else -1
+        if "tau" not in self.unknowns:
+            return -1
+        return m + int(np.abs(u[m:-1]).argmax()) if u.size - m > 1 else self.unknowns.index("tau")
 
     def shape_at(self, u: Array, lam: float) -> tuple[Array, Array, Array, Array]:
         """s, phi and x, z of the n + 1 joints."""

@@ -189,6 +189,11 @@ class Rod:
         return self.compliance[0]
 
     @property
+    def lever(self) -> float:
+        """The most that a turn of one unknown moves the end: two of the longest intervals."""
+        return 2 * float(np.diff(self.mesh).max())
+
+    @property
     def foot_angle(self) -> float:
         """The angle of the clamp."""
         return self.phi0

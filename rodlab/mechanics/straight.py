@@ -28,6 +28,7 @@ WANTED = 1e-12  # relative error of a load of a rod
 MESHES = 7  # tried for it
 LOOKS = 64  # loads at which the index of a rod that extends is asked, up to where it would be crushed
 WIDEST = 1e150  # of a bracket
+ROUGH = 1e-6  # relative change of a load that no longer falls, at most: rounding
 
 
 class Load(NamedTuple):
@@ -91,7 +92,7 @@ class Straight:
                 p = moved
             if not low < moved < high and sweep > 2:
                 return None
-            if sweep > 2 and (change <= max(off, 4 * EPS * abs(p)) or change >= last):
+            if sweep > 2 and (change <= max(off, 4 * EPS * abs(p)) or (change >= last and change <= ROUGH * abs(p))):
                 return p, off + change + 2 * EPS * abs(p), w
             last = change if sweep > 2 else np.inf
         return None

@@ -187,6 +187,11 @@ class Strut:
         return self.springs.total_compliance
 
     @property
+    def lever(self) -> float:
+        """The most that a turn of one unknown moves the end: the longest link."""
+        return self.joints.h * self.joints.most_weight
+
+    @property
     def foot_angle(self) -> float:
         """The angle of the clamp."""
         return self.joints.phi0

@@ -29,13 +29,16 @@ TRUSTED = 1e-6  # relative size of a refinement above which elimination is not t
 class Constrained(Symmetric):
     """The matrix above, in the order (p, y); `constraints` is c, and the index that of the constrained form.
 
+    noise: how far the entries of each column of the border may be off; one that is nothing but rounding constrains nothing.
+
     >>> A = Constrained(np.diag([1.0, -1.0]), np.array([[0.0], [1.0]]), np.zeros((1, 1)), constraints=1)       # y_2 = 0
     >>> A.index, A.solve(np.array([2.0, 3.0, 0.0]))
     (0, array([2., 3., 2.]))
     """
 
-    def __init__(self, matrix: Any, border: Array, corner: Array, constraints: int) -> None:
+    def __init__(self, matrix: Any, border: Array, corner: Array, constraints: int, noise: Array | float = 0.0) -> None:
         self.matrix, self.border, self.corner, self.constraints = matrix, border, corner, constraints
+        self.noise = np.broadcast_to(noise, corner.shape[:1])  # of the entries of each column of the border
 
     @property
     def width(self) -> int:
@@ -76,7 +79,7 @@ class Constrained(Symmetric):
 
     def shifted(self, mu: Any) -> "Constrained":
         """A + mu, or A + diag(mu) with one entry for each y; the border as it is."""
-        return Constrained(shifted(self.matrix, mu), self.border, self.corner, self.constraints)
+        return Constrained(shifted(self.matrix, mu), self.border, self.corner, self.constraints, self.noise)
 
     def largest_change(self, other: "Constrained") -> float:
         """Bound on the change of A, its border left aside: a slack is one of A."""
@@ -96,9 +99,13 @@ class Constrained(Symmetric):
 
     def inertia(self, slack: Array | float = 0.0) -> Inertia:
         """Signs of the eigenvalues on the constrained y, of every A within diag(slack), and rounding, of this one."""
-        total = self.shape[0] - 2 * self.constraints
-        low, high = self._negative(slack, 1)[0], self._negative(slack, -1)[1]
-        low, high = min(max(low, 0), total), min(max(high, low, 0), total)
+        low, high = max(self._negative(slack, 1)[0], 0), max(self._negative(slack, -1)[1], 0)
+        total = max(0, self.shape[0] - 2 * self.constraints)
+        if self.corner[: self.constraints, : self.constraints].any():  # multipliers that yield leave what was eliminated
+            total = max(total, high)
+        if low > min(high, total):  # constraints that depend on each other
+            return Inertia(0, total, 0)
+        high = min(high, total)
         return Inertia(low, high - low, total - high)
 
     def index_within(self, slack: Array | float) -> int | None:
@@ -130,9 +137,11 @@ class Constrained(Symmetric):
             left = self.border - np.column_stack([moved @ x for x in X.T])
             S = self.corner - self.border.T @ X
             lost = np.abs(X).T @ np.abs(left) + CLEAR * (np.abs(self.corner) + np.abs(self.border).T @ np.abs(X))
+            blurred = np.outer(self.noise, np.abs(X).sum(axis=0))
+            lost += blurred + blurred.T
+            S, lost = _balanced((S + S.T) / 2, lost)  # entries of any size: forces beside angles
         if not (np.isfinite(S).all() and np.isfinite(lost).all()):
             return 0, self.width
-        S, lost = _balanced((S + S.T) / 2, lost)  # entries of any size: forces beside angles
         w = np.linalg.eigvalsh(S)
         off = float(lost.sum(axis=1).max()) + CLEAR * self.width
         return int((w < -off).sum()), int((w <= off).sum())
