@@ -15,8 +15,8 @@ from rodlab.analysis.diagram import diagram
 from rodlab.analysis.equilibrium import equilibrium
 from rodlab.analysis.newton import Newton, NoConvergence
 from rodlab.analysis.point import Point
+from rodlab.mechanics.ends import refuse_held
 from rodlab.mechanics.enumerate import CLOSE, Root, cover
-from rodlab.mechanics.held import refuse_held
 from rodlab.mechanics.krawczyk import krawczyk
 from rodlab.mechanics.recurrence import bits, precision
 from rodlab.mechanics.sampled import sampled, too_many

@@ -13,7 +13,7 @@ from rodlab.mechanics.assembly import balance, full
 from rodlab.numerics.arrays import EPS, Array
 
 if TYPE_CHECKING:
-    from rodlab.mechanics.strut import Strut
+    from rodlab.mechanics.strut_energy import StrutEnergy
 
 KNOWN = ("bending", "bending_with_rest", "end_load", "end_torque", "end_force", "self_weight")
 Bound = Callable[[Any, float], tuple[Any, Any]]  # (du, dlam) -> (d, c)
@@ -24,7 +24,7 @@ def unknown(_du: Any, _dlam: float) -> tuple[Any, Any]:
     return np.inf, np.inf
 
 
-def lipschitz(strut: "Strut", u: Array, lam: float) -> Bound:
+def lipschitz(strut: "StrutEnergy", u: Array, lam: float) -> Bound:
     """Bounds on the change of Jacobian and d_lam, as a function of how far angles (entrywise) and load are from (u, lam).
 
     It returns a diagonal d with -d <= J' - J <= d, and a bound on the entries of the change of d_lam; shapes (n,), convex in
@@ -50,7 +50,7 @@ def lipschitz(strut: "Strut", u: Array, lam: float) -> Bound:
     return bound
 
 
-def embedding(strut: "Strut", lam: float) -> tuple[float, float]:
+def embedding(strut: "StrutEnergy", lam: float) -> tuple[float, float]:
     """(a, b) with max |w|^2 <= a w.Jw + b w.w for the Jacobian J at any angles and this load.
 
     w_i is a sum of its differences: w_i^2 <= sum(1/k) w.D^T k D w (Cauchy and Schwarz), and J = D^T k D - C.
@@ -62,7 +62,7 @@ def embedding(strut: "Strut", lam: float) -> tuple[float, float]:
     return a, a * softest
 
 
-def rounding(strut: "Strut", phi: Array, lam: float, v: Array) -> float:
+def rounding(strut: "StrutEnergy", phi: Array, lam: float, v: Array) -> float:
     """Bound on |v . (computed gradient - exact gradient)|.
 
     The moments enter as differences, so their relative rounding counts with the variation of v, not with n.

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rodlab.mechanics.held import refuse_held
+from rodlab.mechanics.ends import refuse_held
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import EPS, number
 from rodlab.numerics.difference import DifferenceForm

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from rodlab.mechanics import resolution, rod_bounds
-from rodlab.mechanics.held import CANTILEVER, Held, checked_ends, held_arguments, reactions_of
+from rodlab.mechanics.ends import CANTILEVER, checked_ends, held_arguments, reactions_of
+from rodlab.mechanics.held import Held
 from rodlab.mechanics.recipe import rod_recipe_of, said_of_rod
 from rodlab.mechanics.rod import Rod
 from rodlab.mechanics.terms import Term

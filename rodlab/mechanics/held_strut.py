@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from rodlab.mechanics.held import CANTILEVER, Held, checked_ends, held_arguments, reactions_of
+from rodlab.mechanics.ends import CANTILEVER, checked_ends, held_arguments, reactions_of
+from rodlab.mechanics.held import Held
 from rodlab.mechanics.recipe import recipe_of, said_of
 from rodlab.mechanics.strut import Strut
 from rodlab.mechanics.terms import Term

@@ -29,7 +29,7 @@ from sympy.polys.polyerrors import BasePolynomialError
 from sympy.polys.ring_series import rs_mul
 from sympy.polys.rings import PolyElement, ring
 
-from rodlab.mechanics.held import refuse_held
+from rodlab.mechanics.ends import refuse_held
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import EPS, whole
 

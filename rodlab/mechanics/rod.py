@@ -11,28 +11,25 @@ A mesh that is not given adapts (`rodlab.mechanics.remesh`): each point has the 
 
 from collections.abc import Callable, Sequence
 from copy import copy
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodlab.mechanics import bounds, remesh, resolution, rod_bounds, rod_ends, rod_places
-from rodlab.mechanics.held import CANTILEVER, needs_reactions
-from rodlab.mechanics.kernels import density
-from rodlab.mechanics.mirror import mirror
+from rodlab.mechanics import bounds, remesh, resolution, rod_bounds
+from rodlab.mechanics.ends import CANTILEVER, needs_reactions
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.recipe import changed, kept, rod_recipe_of, said_of_rod
+from rodlab.mechanics.rod_shape import RodShape
 from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term, checked
 from rodlab.numerics.arrays import EPS, Array, number, vector, whole
-from rodlab.numerics.collocated import Collocated
 from rodlab.numerics.collocation import Grid
-from rodlab.numerics.full import Full
 from rodlab.numerics.inertia import Inertia
 from rodlab.numerics.mesh import given_mesh, spread_out
 from rodlab.numerics.pieces import smooth_pieces
 
 if TYPE_CHECKING:
-    from rodlab.mechanics.limit import Limit
+    pass
 
 FIRST = 4  # intervals of the first mesh
 HIGHEST = 32  # degree
@@ -40,7 +37,7 @@ NEAREST = 1e-9  # distance of breaks
 DERIVED = ("companion", "compliance", "_stiff", "_with_load", "_without_load", "symmetries")  # of mesh and parameters
 
 
-class Rod:
+class Rod(RodShape):
     """A rod with bending stiffness K and unstressed curvature u_hat, of length 1, clamped at its foot.
 
     K, u_hat: a number, a function of an array s, or an expression in s; jumps and kinks are found, those narrower than a
@@ -204,145 +201,9 @@ class Rod:
         return any(profile.constant is None for profile in self.profiles.values())
 
     @property
-    def size(self) -> int:
-        """Number of unknowns."""
-        return self.grid.N * self.degree
-
-    @property
     def freedom(self) -> int:
         """Number of eigenvalues of the second variation."""
         return self.size
-
-    # --- energy and its derivatives ------------------------------------------------------------------------------
-
-    def kernel(self, lam: float = 1.0) -> Any:
-        """The compiled derivatives of the density; at lam = 0 the load does not occur in it."""
-        return self._with_load if lam else self._without_load
-
-    @cached_property
-    def _with_load(self) -> Any:
-        return density(self.loaded)
-
-    @cached_property
-    def _without_load(self) -> Any:
-        return self._with_load if self.terms else density(self._unloaded)
-
-    def given(self, kernel: Any) -> dict[str, Any]:
-        """The parameters that a kernel asks for."""
-        return {name: self.parameters[name] for name in kernel.parameters}
-
-    def energy(self, phi: Any, lam: float) -> float:
-        """V(phi; lam) by Gauss's rule. `ValueError` unless phi (N m,) and lam are finite."""
-        u, lam = self._state(phi, lam)
-        W, grid = self.kernel(lam), self.grid
-        angle, slope = grid.at_gauss(grid.nodal(u, self.phi0))
-        places = rod_places.places(self, angle, grid) if W.places else ()
-        V = np.sum(grid.hb * W.energy(slope, angle, *places, lam, **self.given(W)))
-        return complex(V) if np.iscomplexobj(V) else float(V)  # type: ignore[return-value]
-
-    def gradient(self, phi: Any, lam: float) -> Array:
-        """dV/dphi, shape (N m,). `ValueError` unless phi (N m,) and lam are finite."""
-        return self.residual(*self._state(phi, lam))
-
-    def hessian(self, phi: Any, lam: float) -> Collocated | Full:
-        """d2V/dphi2: `.toarray()`, `.index`, `.solve(b)`; symmetric, of overlapping blocks.
-
-        Full where forces change with the place (a foundation): then a solve costs O((N m)^3).
-        """
-        return self.jacobian(*self._state(phi, lam))
-
-    def d_lam(self, phi: Array, lam: float) -> Array:
-        """d(gradient)/dlam, shape (N m,), of arguments that are not looked at."""
-        return self.by("lam", phi, lam)
-
-    # --- the equations F(u, lam) = 0 that a solver sees ---------------------------------------------------------
-
-    def residual(self, u: Array, lam: float) -> Array:
-        """The gradient, of arguments that are not looked at."""
-        return Grid.gathered(self.tested(u, lam, self.grid))
-
-    def residual_wide(self, u: Array, lam: float) -> Array:
-        """The same computed in numpy's longest float, and rounded once: 11 bits more where the machine has them."""
-        return np.asarray(Grid.gathered(self.tested(u, lam, self.grid.wide)), dtype=np.float64)
-
-    def tested(self, u: Array, lam: float, grid: Grid) -> Array:
-        """What each interval contributes to the gradient at its nodes, (N, m+1)."""
-        return grid.tested(*self.moments(u, lam, grid))
-
-    def moments(self, u: Array, lam: float, grid: Grid | None = None) -> tuple[Any, Any]:
-        """W_phi' and the moment on a unit of length at Gauss's points: W_phi, and what forces on the places do."""
-        W = self.kernel(lam)
-        own = grid is None or grid is self.grid
-        angle, slope = self.at_gauss(u) if own else grid.at_gauss(grid.nodal(u, self.phi0))  # type: ignore[union-attr]
-        m, f = W.moments(slope, angle, lam, **self.given(W))
-        if W.places:
-            Q1, Q3 = rod_places.forces(self, angle, self.grid if grid is None else grid)
-            f = f + np.cos(angle) * Q1 - np.sin(angle) * Q3
-        return m, f
-
-    def stiffness(self, u: Array, lam: float) -> tuple[Any, Any, Any]:
-        """W_phi'phi', W_phi'phi and the change of the moment above with the angle, the forces as they are."""
-        W = self.kernel(lam)
-        angle, slope = self.at_gauss(u)
-        k, mixed, soft = W.stiffness(slope, angle, lam, **self.given(W))
-        if W.places:
-            Q1, Q3 = rod_places.forces(self, angle, self.grid)
-            soft = soft - np.sin(angle) * Q1 - np.cos(angle) * Q3
-        return k, mixed, soft
-
-    def local(self, u: Array, lam: float) -> Collocated:
-        """The second variation with the forces of terms as they are: all of it but for a foundation."""
-        k, mixed, soft = self.stiffness(u, lam)
-        matrix = self.grid.second(self._stiff if k is self.parameters["K"] else self.grid.stiff(k), mixed, soft)
-        matrix.parts = partial(self.grid.quadratic, k, mixed, soft)
-        return matrix
-
-    def hardening(self, u: Array) -> Array | None:
-        """The rest of it over all nodes, the foot's first: (N m + 1, N m + 1); None where no force changes with the place.
-
-        Kept for the last u that was asked for: the border of other ends asks for its first column too.
-        """
-        if not self.kernel().hardens:
-            return None
-        angle, _ = self.at_gauss(u)
-        if self._last_hardening is None or self._last_hardening[0] is not angle:
-            self._last_hardening = angle, rod_places.hardening(self, angle)
-        return self._last_hardening[1]
-
-    def jacobian(self, u: Array, lam: float) -> Collocated | Full:
-        """The Hessian, of arguments that are not looked at."""
-        local, rest = self.local(u, lam), self.hardening(u)
-        return local if rest is None else Full(local.toarray() + rest[1:, 1:])
-
-    @cached_property
-    def _stiff(self) -> Array:
-        return self.grid.stiff(self.parameters["K"])
-
-    def by(self, name: str, u: Array, lam: float, unit: Any = 1.0) -> Array:
-        """The derivative of the gradient in the load, or in a parameter that grows like `unit`, a number or (N, m)."""
-        return Grid.gathered(self.by_nodes(name, u, lam, unit))
-
-    def by_nodes(self, name: str, u: Array, lam: float, unit: Any = 1.0) -> Array:
-        """The same as what each interval contributes at its nodes, (N, m+1)."""
-        W, grid = self.kernel(), self.grid
-        angle, slope = self.at_gauss(u)
-        given = self.given(W)
-        m, f = getattr(W, f"moments_{name}")(slope, angle, lam, **given)
-        f = f * unit
-        if W.places and hasattr(W, f"forces_{name}"):
-            changes = getattr(W, f"forces_{name}")(*rod_places.places(self, angle, grid), **given)
-            Q1, Q3 = (rod_places.carried(change * unit, grid) for change in changes)
-            f = f + np.cos(angle) * Q1 - np.sin(angle) * Q3
-        return grid.tested(np.broadcast_to(m * unit, angle.shape), f)
-
-    def at_gauss(self, u: Array) -> tuple[Array, Array]:
-        """Angles and their derivatives at Gauss's points, (N, m) each; kept for the last u that was asked for."""
-        last = self._last_state
-        if last is not None and last[0].size == u.size and (last[0] == u).all():
-            return last[1], last[2]
-        angle, slope = self.grid.at_gauss(self.grid.nodal(u, self.phi0))
-        self._last_state = (u.copy(), angle, slope)
-        return angle, slope
 
     def inner(self, u: Array, v: Array) -> float:
         """The integral of u v over the length, by Lobatto's rule."""
@@ -355,18 +216,6 @@ class Rod:
         if callable(guess):
             guess = Profile("guess", guess).at(self.grid.places[1:])
         return vector("guess", guess, self.size).copy()
-
-    @property
-    def measures(self) -> dict[str, Callable[[Array, float], float]]:
-        """Name -> function of (u, lam): what a point can be asked for."""
-        return {
-            "tip_angle": lambda u, _: float(u[-1]),
-            "height": lambda u, lam: self.boundary("lam", u, lam),
-            "energy": self.energy,
-            "moment": self.moment,
-            "curvature": self.curvature,
-            "condition": lambda u, lam: resolution.condition(self, u, lam),
-        }
 
     # --- what it knows besides: bounds for proofs, errors, meshes --------------------------------------------------
 
@@ -451,70 +300,19 @@ class Rod:
         """The clamped rod whose state this is, its angles, and the load on it: itself."""
         return self, u, lam
 
-    def boundary(self, name: str, u: Array, lam: float) -> float:
-        """dV/d(name) of a boundary value: lam, N1, tau, phi0 or x0."""
-        return rod_ends.boundary(self, name, u, lam)
-
-    def column(self, name: str, u: Array, lam: float) -> Array:
-        """d(gradient)/d(name) of a boundary value, shape (N m,)."""
-        return rod_ends.column(self, name, u, lam)
-
-    def second(self, one: str, other: str, u: Array, lam: float) -> float:
-        """d2V/d(one) d(other) of two boundary values."""
-        return rod_ends.second(self, one, other, u, lam)
-
-    # --- shape ---------------------------------------------------------------------------------------------------
-
-    def unstressed(self) -> Array:
-        """phi0 + the integral of u_hat [N 2.6]: the equilibrium without load and terms."""
-        u_hat = np.broadcast_to(self.parameters["u_hat"], self.grid.s.shape)
-        return np.asarray(self.phi0 + self.grid.antiderivative(u_hat))
+    # --- what a point asks for -------------------------------------------------------------------------------------------
 
     @property
-    def is_straight(self) -> bool:
-        """True when phi = 0 is an equilibrium at every load."""
-        if self.curved or self.phi0:
-            return False
-        zero = np.zeros(self.size)
-        return not (self.residual(zero, 0.0).any() or self.residual(zero, 1.0).any())
-
-    @cached_property
-    def symmetries(self) -> tuple[Callable[[Array], Array], ...]:
-        """Maps of the unknowns that take equilibria to equilibria: the mirror image, where the energy is the same for it."""
-        return mirror(self, self.size)
-
-    def height(self, u: Array) -> float:
-        """z of the tip."""
-        angle, _ = self.grid.at_gauss(self.grid.nodal(u, self.phi0))
-        return float(np.sum(self.grid.hb * np.cos(angle)))
-
-    def moment(self, u: Array, lam: float) -> float:
-        """m(0), the moment in the clamp: what balances the moments of all loads, of order 2m as the angles are."""
-        return -float(self.tested(u, lam, self.grid)[0, 0])
-
-    def curvature(self, u: Array, lam: float) -> float:
-        """phi'(0), from the moment in the clamp."""
-        W = self.kernel(lam)
-        s = np.zeros(1)
-        given = {name: self.profiles[name].at(s) for name in W.parameters}
-        foot = np.full(1, self.phi0)
-        m0, k = W.moments(s, foot, lam, **given)[0], W.stiffness(s, foot, lam, **given)[0]
-        return float(np.squeeze((self.moment(u, lam) - m0) / k))
-
-    def shape(self, u: Any) -> tuple[Array, Array]:
-        """x, z of the nodes, from the clamp (0, 0) to the tip."""
-        angle, _ = self.grid.at_gauss(self.grid.nodal(vector("phi", u, self.size), self.phi0))
-        x, z = (self.grid.antiderivative(f(angle)) for f in (np.sin, np.cos))
-        return np.append(0.0, x), np.append(0.0, z)
-
-    def reached(self, u: Array, lam: float) -> tuple[Array, Array]:
-        """x, z of the nodes under a load, by which the rod may be sheared and extended."""
-        x, z = (self.grid.antiderivative(slope) for slope in rod_ends.reach(self, u, lam))
-        return np.append(self.x0, x + self.x0), np.append(0.0, z)
-
-    def nodes(self, u: Array) -> tuple[Array, Array]:
-        """s and phi of the nodes, the clamp first."""
-        return self.grid.places, np.append(self.phi0, u)
+    def measures(self) -> dict[str, Callable[[Array, float], float]]:
+        """Name -> function of (u, lam): what a point can be asked for."""
+        return {
+            "tip_angle": lambda u, _: float(u[-1]),
+            "height": lambda u, lam: self.boundary("lam", u, lam),
+            "energy": self.energy,
+            "moment": self.moment,
+            "curvature": self.curvature,
+            "condition": lambda u, lam: resolution.condition(self, u, lam),
+        }
 
     def shape_at(self, u: Array, lam: float) -> tuple[Array, Array, Array, Array]:
         """s, phi and x, z, inside of the intervals as accurate as at mesh points: those of the companion."""
@@ -525,15 +323,6 @@ class Rod:
         """phi, x, z at any arclengths s (k,)."""
         fine, v = resolution.corrected(self, u, lam)
         return resolution.between(fine, v, lam, s)
-
-    def derivation(self) -> "Limit":
-        """SymPy's limit of the link: density, Euler and Lagrange's equation, first-order system; LaTeX in a notebook."""
-        from rodlab.mechanics.limit import limit
-
-        return limit(self.loaded)
-
-    def _state(self, phi: Any, lam: Any) -> tuple[Array, float]:
-        return vector("phi", phi, self.size, complex_too=True), number("lam", lam)
 
 
 def _breaks(breaks: Any) -> tuple[float, ...]:

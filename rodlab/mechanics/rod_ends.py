@@ -13,10 +13,10 @@ from rodlab.numerics.arrays import Array
 from rodlab.numerics.collocation import Grid
 
 if TYPE_CHECKING:
-    from rodlab.mechanics.rod import Rod
+    from rodlab.mechanics.rod_energy import RodEnergy
 
 
-def reach(rod: "Rod", u: Array, lam: float) -> tuple[Array, Array]:
+def reach(rod: "RodEnergy", u: Array, lam: float) -> tuple[Array, Array]:
     """x', z' at Gauss's points, (N, m) each."""
     W = rod.kernel()
     angle, slope = rod.at_gauss(u)
@@ -24,7 +24,7 @@ def reach(rod: "Rod", u: Array, lam: float) -> tuple[Array, Array]:
     return np.broadcast_to(dx, angle.shape), np.broadcast_to(dz, angle.shape)
 
 
-def boundary(rod: "Rod", name: str, u: Array, lam: float) -> float:
+def boundary(rod: "RodEnergy", name: str, u: Array, lam: float) -> float:
     """dV/d(name) of a boundary value."""
     if name in FORCES:
         dx, dz = reach(rod, u, lam)
@@ -39,7 +39,7 @@ def boundary(rod: "Rod", name: str, u: Array, lam: float) -> float:
     return float(np.sum(grid.hb * X)) - float(rod.parameters.get("N1", 0.0))
 
 
-def column(rod: "Rod", name: str, u: Array, lam: float) -> Array:
+def column(rod: "RodEnergy", name: str, u: Array, lam: float) -> Array:
     """d(gradient)/d(name), shape (N m,)."""
     if name in FORCES:
         return Grid.gathered(rod.by_nodes(name, u, lam))
@@ -50,12 +50,12 @@ def column(rod: "Rod", name: str, u: Array, lam: float) -> Array:
     if name == "phi0":
         local, rest = rod.local(u, lam), rod.hardening(u)
         out = np.zeros(u.size) if rest is None else rest[1:, 0].copy()
-        out[: rod.degree] += local.blocks[0, 1:, 0]
+        out[: rod.grid.degree] += local.blocks[0, 1:, 0]
         return out
     return rod_places.by_foot(rod, rod.at_gauss(u)[0])[1:]
 
 
-def second(rod: "Rod", one: str, other: str, u: Array, lam: float) -> float:
+def second(rod: "RodEnergy", one: str, other: str, u: Array, lam: float) -> float:
     """d2V/d(one) d(other) of two boundary values."""
     pair = {one, other}
     if "tau" in pair or pair == {"x0", "lam"}:

@@ -15,12 +15,12 @@ from rodlab.numerics.arrays import Array
 from rodlab.numerics.collocation import Grid
 
 if TYPE_CHECKING:
-    from rodlab.mechanics.rod import Rod
+    from rodlab.mechanics.rod_energy import RodEnergy
 
 MOST = 3000  # unknowns of a rod whose terms couple all angles
 
 
-def places(rod: "Rod", angle: Array, grid: Grid) -> tuple[Array, Array]:
+def places(rod: "RodEnergy", angle: Array, grid: Grid) -> tuple[Array, Array]:
     """x, z at Gauss's points, (N, m) each."""
     return _summed(np.sin(angle), grid) + rod.x0, _summed(np.cos(angle), grid)
 
@@ -42,14 +42,14 @@ def carried(force: Any, grid: Grid) -> Array:
     return np.asarray(Q)
 
 
-def forces(rod: "Rod", angle: Array, grid: Grid) -> tuple[Array, Array]:
+def forces(rod: "RodEnergy", angle: Array, grid: Grid) -> tuple[Array, Array]:
     """Q1, Q3 at Gauss's points: what the terms of the place leave to be carried."""
     W = rod.kernel()
     X, Z = W.forces(*places(rod, angle, grid), **rod.given(W))
     return carried(X, grid), carried(Z, grid)
 
 
-def hardening(rod: "Rod", angle: Array) -> Array:
+def hardening(rod: "RodEnergy", angle: Array) -> Array:
     """The part of the second variation from forces that change with the place, over all nodes: (N m + 1, N m + 1)."""
     grid, W = rod.grid, rod.kernel()
     if rod.size > MOST:
@@ -64,7 +64,7 @@ def hardening(rod: "Rod", angle: Array) -> Array:
     return np.asarray(Jx.T @ (xx * Jx) + Jz.T @ (zz * Jz) + mixed + mixed.T)
 
 
-def by_foot(rod: "Rod", angle: Array) -> Array:
+def by_foot(rod: "RodEnergy", angle: Array) -> Array:
     """How the gradient changes with x0, the foot's place, over all nodes: (N m + 1,)."""
     grid, W = rod.grid, rod.kernel()
     xx, xz, _ = W.hardening(*places(rod, angle, grid), **rod.given(W))

@@ -15,27 +15,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rodlab.mechanics import bounds, strut_ends
 from rodlab.mechanics import joints as joints_of
-from rodlab.mechanics.assembly import balance, difference_form, full
-from rodlab.mechanics.held import CANTILEVER, checked_ends, needs_reactions
+from rodlab.mechanics import strut_ends
+from rodlab.mechanics.ends import CANTILEVER, checked_ends, needs_reactions
 from rodlab.mechanics.joints import Joints
-from rodlab.mechanics.kernels import Kernel, kernel
 from rodlab.mechanics.mirror import mirror
-from rodlab.mechanics.places import Places
 from rodlab.mechanics.profile import Profile
 from rodlab.mechanics.recipe import changed, kept, recipe_of, said_of
+from rodlab.mechanics.strut_energy import StrutEnergy
 from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD, Term, checked
-from rodlab.numerics.anchored import Anchored
-from rodlab.numerics.arrays import EPS, Array, number, vector
-from rodlab.numerics.difference import DifferenceForm, Springs
-from rodlab.numerics.tridiagonal import Tridiagonal
+from rodlab.numerics.arrays import Array, vector
+from rodlab.numerics.difference import Springs
 
 if TYPE_CHECKING:
     from rodlab.mechanics.derivation import Derivation
 
 
-class Strut:
+class Strut(StrutEnergy):
     """A strut of n joints with bending stiffness K and unstressed curvature u_hat, of length 1.
 
     K, u_hat: a number, n numbers (one a joint), a function of an array s, or an expression in s. rule: "end" (the notes,
@@ -196,84 +192,6 @@ class Strut:
         """The angle of the clamp."""
         return self.joints.phi0
 
-    @property
-    def n(self) -> int:
-        """Number of joints."""
-        return self.joints.n
-
-    # --- energy and its derivatives ------------------------------------------------------------------------
-
-    def kernel(self, lam: float = 1.0) -> Kernel:
-        """The compiled derivatives of one link's energy; at lam = 0 the load does not occur in it."""
-        return self._with_load if lam else self._without_load
-
-    @cached_property
-    def _with_load(self) -> Kernel:
-        return kernel(self.loaded, weighted=self.joints.weights is not None)
-
-    @cached_property
-    def _without_load(self) -> Kernel:
-        return self._with_load if self.terms else kernel(self._unloaded, weighted=self.joints.weights is not None)
-
-    def energy(self, phi: Any, lam: float) -> Any:
-        """V(phi; lam): a float, or complex for complex angles. `ValueError` unless phi (n,) and lam are finite."""
-        phi, lam = self._state(phi, lam)
-        link, below = self.kernel(lam), self.below(phi)
-        places = self.places.of(phi, self.x0) if link.places else ()
-        e = link.energy(below, phi, *places, lam, **self.given(link))
-        V = np.sum(e) + strut_ends.foot(self, lam).energy
-        return complex(V) if np.iscomplexobj(V) else float(V)
-
-    def gradient(self, phi: Any, lam: float) -> Array:
-        """dV/dphi, shape (n,): the balance of moments on each link. `ValueError` unless phi (n,) and lam are finite."""
-        return self.residual(*self._state(phi, lam))
-
-    def hessian(self, phi: Any, lam: float) -> DifferenceForm | Tridiagonal | Anchored:
-        """d2V/dphi2: `.diagonal`, `.off_diagonal`, `.toarray()`, `.index`, `.solve(b)`; symmetric.
-
-        Tridiagonal; with forces that change with the place (a foundation) full, but known by O(n) numbers
-        (`rodlab.numerics.anchored`).
-        """
-        return self.jacobian(*self._state(phi, lam))
-
-    def d_lam(self, phi: Any, lam: float) -> Array:
-        """d(gradient)/dlam, shape (n,)."""
-        phi, lam = self._state(phi, lam)
-        link = self.kernel()
-        m, f = link.moments_lam(self.below(phi), phi, lam, **self.given(link))
-        return balance(m, f, phi)
-
-    # --- the equations F(u, lam) = 0 that a solver sees -------------------------------------------------------
-
-    def residual(self, u: Array, lam: float) -> Array:
-        """The gradient, of arguments that are not looked at."""
-        link = self.kernel(lam)
-        given = self.given(link)
-        m, f = link.moments(self.below(u), u, lam, **given)
-        g = balance(m, f, u)
-        if link.places:
-            g += self.places.moments(u, *link.forces(*self.places.of(u, self.x0), **given))
-        return g
-
-    def jacobian(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Anchored:
-        """The Hessian, of arguments that are not looked at."""
-        link = self.kernel(lam)
-        given = self.given(link)
-        k, c_above, c_below = link.stiffness(self.below(u), u, lam, **given)
-        c, spread = full(c_above, self.n), 0.0
-        if np.ndim(c_below) or c_below:
-            c[:-1] += full(c_below, self.n)[1:]
-        if link.places:
-            forces = link.forces(*self.places.of(u, self.x0), **given)
-            c += self.places.softening(u, *forces)
-            spread = 2 * self.n * EPS * float(self.places.size(*forces).max())  # of their cumulative sums
-        local = difference_form(self.springs if k is self.joints.k else full(k, self.n), c, spread)
-        return self.places.anchored(local, u, *link.hardening(*self.places.of(u, self.x0), **given)) if link.hardens else local
-
-    def second_variation(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Anchored:
-        """The Hessian, whose negative eigenvalues are the index."""
-        return self.jacobian(u, lam)
-
     def inner(self, u: Array, v: Array) -> float:
         """h sum u_i v_i: the integral of u v over the length, so that a step means the same for every n."""
         return float(self.joints.h * (u @ v))
@@ -294,38 +212,6 @@ class Strut:
             "height": lambda u, lam: self.boundary("lam", u, lam),
             "energy": self.energy,
         }
-
-    def lipschitz(self, u: Array, lam: float) -> bounds.Bound:
-        """How far Jacobian and d_lam may be from those at (u, lam) near by; see `rodlab.mechanics.bounds`."""
-        return bounds.lipschitz(self, u, lam)
-
-    def embedding(self, lam: float) -> tuple[float, float]:
-        """(a, b) with max |w|^2 <= a w.Jw + b w.w for the Jacobian J at any angles and this load."""
-        return bounds.embedding(self, lam)
-
-    def rounding(self, phi: Array, lam: float, v: Array) -> float:
-        """Bound on |v . (computed gradient - exact gradient)|: how far rounding moves a functional of the solution."""
-        return bounds.rounding(self, phi, lam, v)
-
-    @cached_property
-    def carried(self) -> Array | None:
-        """Bound on the moments of the dead forces of terms, shape (n,); None where no term uses the place."""
-        link, zero = self.kernel(), np.zeros(self.n)
-        return self.places.size(*link.forces(zero, zero, **self.given(link))) if link.places and not link.hardens else None
-
-    # --- what is given at its ends, and what that brings about: see `rodlab.mechanics.strut_ends` -----------------------
-
-    def boundary(self, name: str, u: Array, lam: float) -> float:
-        """dV/d(name) of a boundary value: lam, N1, tau, phi0 or x0."""
-        return strut_ends.boundary(self, name, u, lam)
-
-    def column(self, name: str, u: Array, lam: float) -> Array:
-        """d(gradient)/d(name) of a boundary value, shape (n,)."""
-        return strut_ends.column(self, name, u, lam)
-
-    def second(self, one: str, other: str, u: Array, lam: float) -> float:
-        """d2V/d(one) d(other) of two boundary values."""
-        return strut_ends.second(self, one, other, u, lam)
 
     # --- shape --------------------------------------------------------------------------------------------------
 
@@ -371,23 +257,3 @@ class Strut:
         from rodlab.mechanics.derivation import derivation_of
 
         return derivation_of(self, n)
-
-    # --- small parts ----------------------------------------------------------------------------------------------
-
-    @cached_property
-    def places(self) -> Places:
-        return Places(self.joints)
-
-    def _state(self, phi: Any, lam: Any) -> tuple[Array, float]:
-        return vector("phi", phi, self.n, complex_too=True), number("lam", lam)
-
-    def below(self, phi: Array) -> Array:
-        """phi_{i-1}: the angle under each joint, shape (n,)."""
-        below = np.empty_like(phi)
-        below[0] = self.joints.phi0
-        below[1:] = phi[:-1]
-        return below
-
-    def given(self, link: Kernel) -> dict[str, Any]:
-        """The parameters that a kernel asks for."""
-        return {name: self.parameters[name] for name in link.parameters}

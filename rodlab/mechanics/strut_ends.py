@@ -18,7 +18,7 @@ from rodlab.mechanics.assembly import balance, full
 from rodlab.numerics.arrays import Array
 
 if TYPE_CHECKING:
-    from rodlab.mechanics.strut import Strut
+    from rodlab.mechanics.strut_energy import StrutEnergy
 
 FORCES = ("lam", "N1")
 
@@ -36,7 +36,7 @@ class Foot(NamedTuple):
     hardening: float = 0.0
 
 
-def foot(strut: "Strut", lam: float) -> Foot:
+def foot(strut: "StrutEnergy", lam: float) -> Foot:
     """The foot's link; nothing where the rule gives it no length. Kept for the last load that was asked for."""
     if strut.joints.last_weight == 1:
         return Foot()
@@ -45,7 +45,7 @@ def foot(strut: "Strut", lam: float) -> Foot:
     return strut.last_foot[1]
 
 
-def _foot(strut: "Strut", lam: float) -> Foot:
+def _foot(strut: "StrutEnergy", lam: float) -> Foot:
     j, link = strut.joints, strut.kernel()
     at = {**strut.at_foot, "h": j.h, "w": 1 - j.last_weight, "k": 0.0, "beta": 0.0}
     given: dict[str, Any] = {name: at.get(name, strut.parameters.get(name)) for name in link.parameters}
@@ -65,7 +65,7 @@ def _foot(strut: "Strut", lam: float) -> Foot:
     )
 
 
-def reach(strut: "Strut", u: Array, lam: float) -> tuple[Array, Array]:
+def reach(strut: "StrutEnergy", u: Array, lam: float) -> tuple[Array, Array]:
     """x, z of the joints 1..n from the foot: what the links reach, those of a strut that shears and extends as well."""
     link, own = strut.kernel(), foot(strut, lam)
     parts = link.reach(strut.below(u), u, lam, **strut.given(link))
@@ -73,7 +73,7 @@ def reach(strut: "Strut", u: Array, lam: float) -> tuple[Array, Array]:
     return x + strut.x0, z
 
 
-def boundary(strut: "Strut", name: str, u: Array, lam: float) -> float:
+def boundary(strut: "StrutEnergy", name: str, u: Array, lam: float) -> float:
     """dV/d(name) of a boundary value."""
     if name in FORCES:
         parts = strut.kernel().reach(strut.below(u), u, lam, **strut.given(strut.kernel()))
@@ -90,7 +90,7 @@ def boundary(strut: "Strut", name: str, u: Array, lam: float) -> float:
     return float(own.moment - m[0] - strut.parameters.get("tau", 0.0) + dx * X.sum() + dz * Z.sum())
 
 
-def column(strut: "Strut", name: str, u: Array, lam: float) -> Array:
+def column(strut: "StrutEnergy", name: str, u: Array, lam: float) -> Array:
     """d(gradient)/d(name), shape (n,)."""
     link = strut.kernel()
     given = strut.given(link)
@@ -110,7 +110,7 @@ def column(strut: "Strut", name: str, u: Array, lam: float) -> Array:
     return out
 
 
-def second(strut: "Strut", one: str, other: str, u: Array, lam: float) -> float:
+def second(strut: "StrutEnergy", one: str, other: str, u: Array, lam: float) -> float:
     """d2V/d(one) d(other) of two boundary values."""
     pair = {one, other}
     if "tau" in pair or pair == {"x0", "lam"}:
@@ -140,7 +140,7 @@ def second(strut: "Strut", one: str, other: str, u: Array, lam: float) -> float:
     return float(k - c_below + own.stiffness + turned + dx * dx * xx + 2 * dx * dz * xz + dz * dz * zz)
 
 
-def _forces(strut: "Strut", u: Array) -> tuple[Array, Array]:
+def _forces(strut: "StrutEnergy", u: Array) -> tuple[Array, Array]:
     link = strut.kernel()
     if not link.places:
         return np.zeros(1), np.zeros(1)
@@ -148,7 +148,7 @@ def _forces(strut: "Strut", u: Array) -> tuple[Array, Array]:
     return full(X, strut.n), full(Z, strut.n)
 
 
-def _hardening(strut: "Strut", u: Array) -> tuple[Array, Array, Array]:
+def _hardening(strut: "StrutEnergy", u: Array) -> tuple[Array, Array, Array]:
     link = strut.kernel()
     if not link.places:
         return np.zeros(1), np.zeros(1), np.zeros(1)
