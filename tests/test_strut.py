@@ -13,6 +13,7 @@ from rodlab.mechanics import derive, ship, standard
 from rodlab.mechanics.terms import BENDING, BENDING_WITH_REST, END_LOAD
 from rodlab.numerics.anchored import Anchored
 from rodlab.numerics.difference import DifferenceForm
+from rodlab.numerics.full import Full
 
 STEP = 1e-30
 
@@ -181,7 +182,8 @@ def test_terms_keep_the_hessian_as_thin_as_they_can():
     phi = np.zeros(5)
     assert isinstance(rl.Strut(n=5, terms=rl.self_weight(1.0)).hessian(phi, 1.0), DifferenceForm)
     assert isinstance(rl.Strut(n=5, terms=(rl.end_torque(1.0),)).hessian(phi, 1.0), DifferenceForm)
-    assert isinstance(rl.Strut(n=5, terms=(rl.foundation(1.0),)).hessian(phi, 1.0), Anchored)
+    assert isinstance(rl.Strut(n=5, terms=(rl.foundation(1.0),)).hessian(phi, 1.0), Full)
+    assert isinstance(rl.Strut(n=500, terms=(rl.foundation(1.0),)).hessian(np.zeros(500), 1.0), Anchored)
     long = rl.Strut(n=50_001, terms=(rl.foundation(1.0),)).hessian(np.zeros(50_001), 1.0)
     assert (long.index, long.index_verified) == (0, True)
 

@@ -23,12 +23,15 @@ import numpy as np
 from rodlab.analysis.curve import Curve, Segment
 from rodlab.numerics.arrays import Array
 from rodlab.numerics.bordered import OneBorder
+from rodlab.numerics.constrained import Constrained
 from rodlab.numerics.factor import factor, index_within, largest_change, shifted
+from rodlab.numerics.full import Full, relative_change
 from rodlab.numerics.slack import form, largest
 
 MARGIN = 1.01  # on every bound, for rounding in computing it
 EXTENDED = 1.1  # a fold is shown for a chord this much longer, for what lies between its ends and its neighbours'
 WIDEST = 0.5  # radius of a tube
+FEW = 200  # order up to which a change of a matrix is seen in all directions, not by its norm alone
 FINEST = 2.0**-5  # the smallest part of a segment that is tried
 
 Kind = Literal["regular", "fold", "open"]
@@ -174,8 +177,11 @@ class Prover:
 
     def _regular_as_seen(self, chord: _Chord) -> int | None:
         """The same with the changes seen at the ends for bounds: a check."""
-        matrix = self.curve.second_variation(chord.middle)
-        change = max(largest_change(self.curve.second_variation(y), matrix) for y in (chord.a, chord.b))
+        matrix, ends = self.curve.second_variation(chord.middle), [self.curve.second_variation(y) for y in (chord.a, chord.b)]
+        if isinstance(matrix, (Constrained, Full)) and matrix.shape[0] <= FEW:
+            near = max(relative_change(matrix.toarray(), end.toarray()) for end in ends)
+            return index_within(matrix, 0.0) if near < 1 / 2 else None
+        change = max(largest_change(end, matrix) for end in ends)
         return index_within(matrix, 2 * change) if math.isfinite(change) else None
 
     # --- fold --------------------------------------------------------------------------------------------------

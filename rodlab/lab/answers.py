@@ -10,6 +10,7 @@ from rodlab.lab.branches import Shown
 from rodlab.lab.table import known_to, small, table
 
 MEASURES = ("tip_angle", "height", "energy")
+OF_ENDS = ("load", "shortening", "N1", "tau", "phi0")  # of a model between other ends, its reactions among them
 ROWS = 24  # rows of a table of points; of more points every so many are shown
 
 
@@ -27,7 +28,7 @@ def of_point(p: Point) -> dict[str, Any]:
     """A point's load, measures, index, how its step was accepted, and the error of its tip angle."""
     known: Mapping[str, Any] = getattr(p.equations, "measures", {})
     return {
-        "lam": p.lam, **{name: p.measure(name) for name in MEASURES if name in known}, "index": p.index,
+        "lam": p.lam, **{name: p.measure(name) for name in (*MEASURES, *OF_ENDS) if name in known}, "index": p.index,
         "index_verified": p.index_verified, "error": p.error, "accepted": p.accepted or "given",
     }  # fmt: skip
 

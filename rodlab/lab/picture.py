@@ -19,7 +19,11 @@ if TYPE_CHECKING:  # a picture of a scene has no need of studies
 
 FORMATS = (".png", ".pdf", ".svg")
 GREYS = ("0.0", "0.35", "0.6")
-LABELS = {"tip_angle": "tip angle (radians)", "height": "height", "energy": "energy"}
+LABELS = {
+    "tip_angle": "tip angle (radians)", "height": "height", "energy": "energy", "load": r"load $\lambda$",
+    "shortening": "end shortening", "N1": "reaction across $N_1$", "tau": r"couple on the top $\tau$",
+    "phi0": "angle of the foot (radians)",
+}  # fmt: skip
 DASHES = (0, (4, 2.2))
 MARKS = {"end": "o", "trapezoid": "s"}
 

@@ -16,6 +16,13 @@ if TYPE_CHECKING:
     from rodlab.lab.asked import Answer
 
 
+FOLLOWED = {
+    "lam": r"load $\lambda$", "u_hat": r"unstressed curvature $\hat u$", "shortening": "end shortening $d$",
+    "offset": "offset $x_1$", "q": "weight $q$", "c": "foundation $c$", "tau": r"couple $\tau$", "N1": "force across $N_1$",
+    "phi1": r"angle of the top $\phi_1$", "phi0": r"angle of the clamp $\phi_0$",
+}  # fmt: skip
+
+
 def run_scene(name: str, folder: Path | None, watch: Callable[[Point], Any] | None = None) -> tuple[dict[str, Any], str, bool]:
     """(answer for JSON, text for a person, whether every branch was followed to its end)."""
     start, chosen = time.perf_counter(), scene(name)
@@ -24,6 +31,10 @@ def run_scene(name: str, folder: Path | None, watch: Callable[[Point], Any] | No
     answers = answers_of(chosen)
     about = {"scene": chosen.name, "title": chosen.title, "source": chosen.source, "model": dict(chosen.model)}
     answer = framed("run", time.perf_counter() - start, {**about, "branches": said} | {k: a.said for k, a in answers.items()})
+    if chosen.draw.get("shapes"):
+        from rodlab.lab.shapes_picture import of_states, states
+
+        answer["shapes"] = of_states(states(shown, chosen.draw["shapes"]), both=bool(chosen.draw.get("indices")))
     answer["files"] = [] if folder is None else [str(path) for path in _written(chosen, shown, answers, answer, folder)]
     title = f"{chosen.title} [{chosen.source}]" if chosen.source else chosen.title
     parts = [chosen.about] if chosen.about else []
@@ -49,6 +60,11 @@ def pictures(chosen: Scene, shown: Sequence[Shown], answers: "Mapping[str, Answe
     drawn = {name: png(answer.draw()) for name, answer in answers.items() if answer.draw is not None}
     if shown:
         drawn["diagram"] = png(branches_picture(shown, str(chosen.draw.get("y", "tip_angle")), _label(chosen)))
+    if chosen.draw.get("shapes"):
+        from rodlab.lab.shapes_picture import shapes_picture, states
+
+        both = bool(chosen.draw.get("indices"))
+        drawn["shapes"] = png(shapes_picture(states(shown, chosen.draw["shapes"]), both=both))
     return drawn
 
 
@@ -60,5 +76,6 @@ def _written(chosen: Scene, shown: list[Shown], answers: "dict[str, Answer]", an
 
 
 def _label(chosen: Scene) -> str:
-    """What is followed: the load, or the name of a parameter."""
-    return str(chosen.model.get("vary", "load $\\lambda$")).replace("u_hat", r"unstressed curvature $\hat u$")
+    """What is followed: the load, or another thing by its name."""
+    name = str(chosen.model.get("vary", "lam"))
+    return FOLLOWED.get(name, name)

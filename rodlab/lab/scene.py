@@ -4,10 +4,13 @@
     source = "N 2.7"                             u_hat = 0.01                from = 10.0
     about = "..."                                                            guess = "-3*sin(pi*s/2)"
                                         [draw]   y = "tip_angle"             to = 0.0
+                                             shapes = [{of = "detached", at = 5.0}]
 
 [model] is a recipe (`rodlab.mechanics.recipe`). [[follow]] takes name, from, guess (an expression in s), to, step, events,
-within, max_points, and switch: from how many branch points the half-branches are followed as well. Without [draw]
-nothing is drawn. Scenes of the house are called by name, your own by path. In place of [[follow]] one question about all of it:
+within, max_points, and switch: from how many branch points the half-branches are followed as well. [draw] takes y, a measure,
+formats, shapes, states to draw to scale with their supports and loads, and indices, whether both indices of each are told
+(`rodlab.mechanics.indices`). Without [draw] nothing is drawn.
+Scenes of the house are called by name, your own by path. In place of [[follow]] one question about all of it:
 
     [diagram]       from, to, detached            every branch in a window of loads
     [equilibria]    lam, n                        every equilibrium at a load, for several n, on the standard map
@@ -30,7 +33,7 @@ from rodlab.analysis.events import branch_point, fold
 from rodlab.analysis.follow import Branch, follow
 from rodlab.analysis.point import Point
 from rodlab.analysis.switching import switch
-from rodlab.lab.answers import MEASURES
+from rodlab.lab.answers import MEASURES, OF_ENDS
 from rodlab.lab.branches import Shown
 from rodlab.mechanics.expression import Expression
 from rodlab.mechanics.recipe import build
@@ -48,6 +51,7 @@ ASKS = {
     "work-precision": ("ask", "methods", "repeats", "quick"),
     "stability": ("grid",),
 }
+DRAWN = ("y", "formats", "shapes", "indices")
 OPTIONS = ("name", "from", "to", "guess", "step", "events", "within", "max_points", "switch")
 
 
@@ -171,8 +175,12 @@ def _asked(path: Path, name: str, options: Any) -> Mapping[str, Any]:
 
 
 def _drawn(path: Path, draw: Any) -> Mapping[str, Any]:
-    if not isinstance(draw, dict) or set(draw) - {"y", "formats"} or draw.get("y", "tip_angle") not in MEASURES:
-        raise ValueError(f"{path}: [draw] takes y, one of {', '.join(MEASURES)}, and formats; it is {draw!r:.60}")
+    if not isinstance(draw, dict) or set(draw) - set(DRAWN) or draw.get("y", "tip_angle") not in (*MEASURES, *OF_ENDS):
+        ys = ", ".join((*MEASURES, *OF_ENDS))
+        raise ValueError(f"{path}: [draw] takes y, one of {ys}, formats, shapes and indices; it is {draw!r:.60}")
+    shapes = draw.get("shapes", [])
+    if not isinstance(shapes, list) or not all(isinstance(one, dict) and {"at"} <= set(one) <= {"of", "at"} for one in shapes):
+        raise ValueError(f"{path}: shapes must be a list of tables of at and, it may be, of; it is {shapes!r:.60}")
     formats = draw.get("formats", ["png"])
     if not isinstance(formats, list) or not all(name in FORMATS for name in formats):
         raise ValueError(f"{path}: formats must be a list of {', '.join(FORMATS)}; it is {formats!r:.60}")

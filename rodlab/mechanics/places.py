@@ -14,6 +14,9 @@ import numpy as np
 from rodlab.mechanics.joints import Joints
 from rodlab.numerics.anchored import Anchored
 from rodlab.numerics.arrays import Array
+from rodlab.numerics.full import Full
+
+FEW = 100  # joints up to which a matrix that couples all of them is written out
 
 
 class Places:
@@ -70,8 +73,11 @@ class Places:
         """What dead forces take from the diagonal of the Hessian."""
         return np.asarray(np.sin(phi) * self.carried(X) + np.cos(phi) * self.carried(Z))
 
-    def anchored(self, local: Any, phi: Array, xx: Any, xz: Any, zz: Any) -> Anchored:
-        """The Hessian `local` and J^T diag(e'') J, of forces that change with the place; without z where none change with it."""
+    def anchored(self, local: Any, phi: Array, xx: Any, xz: Any, zz: Any) -> Anchored | Full:
+        """The Hessian `local` and J^T diag(e'') J, of forces that change with the place; without z where none change with it.
+
+        For few joints written out, which is then quicker.
+        """
         used = 1 if all(np.ndim(e) == 0 and e == 0 for e in (xz, zz)) else 2
         turn = np.stack([np.cos(phi), -np.sin(phi)])[:used]
         lower = np.zeros_like(turn)
@@ -80,7 +86,8 @@ class Places:
         for (k, m), e in {(0, 0): xx, (0, 1): xz, (1, 0): xz, (1, 1): zz}.items():
             if max(k, m) < used:
                 stiffness[k, m] = e
-        return Anchored(local, lower, self.h * self.own * turn, stiffness)
+        matrix = Anchored(local, lower, self.h * self.own * turn, stiffness)
+        return Full(matrix.toarray()) if phi.size <= FEW else matrix
 
     def size(self, X: Any, Z: Any) -> Array:
         """Bound on the moments of the forces, shape (n,)."""

@@ -14,6 +14,7 @@ from rodlab.mechanics.terms import Term
 from rodlab.numerics.anchored import Anchored
 from rodlab.numerics.arrays import EPS, Array, number, vector
 from rodlab.numerics.difference import DifferenceForm, Springs
+from rodlab.numerics.full import Full
 from rodlab.numerics.tridiagonal import Tridiagonal
 
 
@@ -60,7 +61,7 @@ class StrutEnergy:
         """dV/dphi, shape (n,): the balance of moments on each link. `ValueError` unless phi (n,) and lam are finite."""
         return self.residual(*self._state(phi, lam))
 
-    def hessian(self, phi: Any, lam: float) -> DifferenceForm | Tridiagonal | Anchored:
+    def hessian(self, phi: Any, lam: float) -> DifferenceForm | Tridiagonal | Anchored | Full:
         """d2V/dphi2: `.diagonal`, `.off_diagonal`, `.toarray()`, `.index`, `.solve(b)`; symmetric.
 
         Tridiagonal; with forces that change with the place (a foundation) full, but known by O(n) numbers
@@ -87,7 +88,7 @@ class StrutEnergy:
             g += self.places.moments(u, *link.forces(*self.places.of(u, self.x0), **given))
         return g
 
-    def jacobian(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Anchored:
+    def jacobian(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Anchored | Full:
         """The Hessian, of arguments that are not looked at."""
         link = self.kernel(lam)
         given = self.given(link)
@@ -102,7 +103,7 @@ class StrutEnergy:
         local = difference_form(self.springs if k is self.joints.k else full(k, self.n), c, spread)
         return self.places.anchored(local, u, *link.hardening(*self.places.of(u, self.x0), **given)) if link.hardens else local
 
-    def second_variation(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Anchored:
+    def second_variation(self, u: Array, lam: float) -> DifferenceForm | Tridiagonal | Anchored | Full:
         """The Hessian, whose negative eigenvalues are the index."""
         return self.jacobian(u, lam)
 
@@ -127,6 +128,10 @@ class StrutEnergy:
         return self.places.size(*link.forces(zero, zero, **self.given(link))) if link.places and not link.hardens else None
 
     # --- what is given at its ends, and what that brings about: see `rodlab.mechanics.strut_ends` -----------------------
+
+    def acting(self, u: Array, lam: float) -> "tuple[StrutEnergy, Array, float]":
+        """The clamped strut whose state this is, its angles, and the load on it: itself."""
+        return self, u, lam
 
     def boundary(self, name: str, u: Array, lam: float) -> float:
         """dV/d(name) of a boundary value: lam, N1, tau, phi0 or x0."""

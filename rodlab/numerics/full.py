@@ -2,9 +2,23 @@
 
 import numpy as np
 
-from rodlab.numerics.arrays import Array
+from rodlab.numerics.arrays import EPS, Array
 from rodlab.numerics.factor import DenseFactor, dense_inertia
 from rodlab.numerics.inertia import Inertia, Symmetric
+
+
+def relative_change(A: Array, B: Array) -> float:
+    """The largest |x . (B - A) x| / x . |A| x: below one no symmetric matrix between A and B is singular; inf where A is.
+
+    >>> relative_change(np.diag([1.0, 1e-6]), np.diag([1.5, 1.2e-6]))
+    0.5
+    """
+    w, Q = np.linalg.eigh(A)
+    size = np.abs(w)
+    if not size.min() > 4 * size.size * EPS * size.max():
+        return np.inf
+    R = Q / np.sqrt(size)
+    return float(np.abs(np.linalg.eigvalsh(R.T @ (B - A) @ R)).max())
 
 
 class Full(Symmetric):
@@ -44,8 +58,8 @@ class Full(Symmetric):
         return np.asarray(self._entries @ x)
 
     def largest_change(self, other: "Full") -> float:
-        """Bound on the 2-norm of the difference."""
-        return float(np.abs(self._entries - other._entries).sum(axis=1).max())
+        """The 2-norm of the difference."""
+        return float(np.abs(np.linalg.eigvalsh(self._entries - other._entries)).max())
 
     def solve(self, b: Array) -> Array:
         """x with A x = b."""
