@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 
 from rodlab.version import __version__
 
@@ -93,7 +94,27 @@ def model_of(chosen: argparse.Namespace) -> dict[str, Any]:
         recipe = {"n": chosen.joints, "rule": "end", **recipe}
     if chosen.u_hat is not None:
         recipe["u_hat"] = _number_or_text(chosen.u_hat)
+    if chosen.ends is not None:
+        recipe["ends"] = [end.strip() for end in chosen.ends.split(",")]
+    if chosen.term:
+        recipe["terms"] = _terms(chosen.term)
     return recipe
+
+
+def _terms(given: Sequence[str]) -> dict[str, dict[str, float | str]]:
+    """Loads by name, each with its parameters, of texts such as "self_weight q=2"."""
+    terms: dict[str, dict[str, float | str]] = {}
+    for text in given:
+        name, *parts = re.split(r"(?:^|\s+)([A-Za-z_]\w*)\s*=(?!=)", text.strip())
+        parameters = {p: _number_or_text(value.strip()) for p, value in zip(parts[::2], parts[1::2], strict=True)}
+        if not re.fullmatch(r"\w+", name) or not parameters or not all(value.strip() for value in parts):
+            raise ValueError(f'term must be a name and its parameters, such as "self_weight q=2"; it is {text!r:.60}')
+        if 2 * len(parameters) < len(parts):
+            raise ValueError(f"term must give each parameter once; it is {text!r:.60}")
+        if name in terms:
+            raise ValueError(f"term must name each load once; {name} is given twice, the second time as {text!r:.60}")
+        terms[name] = parameters
+    return terms
 
 
 def _model_options(
@@ -105,11 +126,15 @@ def _model_options(
     verb.add_argument("--rule", help="of a strut: end or trapezoid (default: end)")
     verb.add_argument("--breaks", type=float, nargs="+", default=[], metavar="S", help="where K or u_hat jumps")
     verb.add_argument("--K", default="1", help='bending stiffness: a number or an expression in s, "1+s" (default: 1)')
-    verb.set_defaults(degree=None, mesh=None, tol=None, u_hat=None)
+    what = 'a load by its name and parameters, "self_weight q=2", "foundation c=1+s", "shearable A3=50"; again for another'
+    verb.add_argument("--term", action="append", metavar="TERM", help=what)
+    verb.set_defaults(degree=None, mesh=None, tol=None, u_hat=None, ends=None)
     if not straight:
         verb.add_argument("--u-hat", default="0", help="unstressed curvature: a number or an expression in s (default: 0)")
     if "rod" not in models:
         return
+    what = "two of clamped, hinged, guided, free (default: clamped,free)"
+    verb.add_argument("--ends", metavar="FOOT,TOP", help=what)
     verb.add_argument("--degree", type=int, help="of a rod: degree of the collocated polynomials (default: 6)")
     verb.add_argument("--mesh", type=int, help="of a rod: number of intervals (default: adapted)")
     verb.add_argument("--tol", type=float, help="of a rod: error of the angles that the mesh is adapted to (default: 1e-10)")

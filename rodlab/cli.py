@@ -14,7 +14,7 @@ from rodlab.version import __version__
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Iterator, Sequence
     from typing import Any
 
 WELCOME = f"""rodlab {__version__}: a teaching laboratory for elastic rods
@@ -85,8 +85,9 @@ def buckling(chosen: argparse.Namespace) -> int:
     model: Any = build(asked)
     most = getattr(model, "n", 3)
     numbers = mode_numbers(model, min(3, most) if chosen.modes is None else chosen.modes)
-    found = list(_progress(buckling_each(model, numbers), "buckling loads", len(numbers), asked.get("n", 10_000) * len(numbers)))
-    loads, error = zip(*found, strict=True)
+    each = _progress(buckling_each(model, numbers), "buckling loads", len(numbers), asked.get("n", 10_000) * len(numbers))
+    loads, error = zip(*_as_many_as(each, all_of_them=chosen.modes is not None), strict=True)
+    numbers = numbers[: len(loads)]
     seconds = time.perf_counter() - start
     if chosen.json:
         answer = framed("buckling", seconds, {**asked, "K": chosen.K, "modes": list(numbers), "loads": loads, "error": error})
@@ -248,6 +249,17 @@ def run(chosen: argparse.Namespace) -> int:
             "run", "a branch could not be followed to its end, or an answer is wrong or missing: the tables say which", 3
         )
     )
+
+
+def _as_many_as(each: Iterable[tuple[float, float]], *, all_of_them: bool) -> Iterator[tuple[float, float]]:
+    """Loads up to the last that there is: a model between ends, or one that would be crushed, may have fewer than asked for."""
+    found = 0
+    try:
+        for found, load in enumerate(each, 1):
+            yield load
+    except ValueError:
+        if all_of_them or not found:
+            raise
 
 
 def _watched(what: str, work: int) -> Any:

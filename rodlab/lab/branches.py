@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from rodlab.analysis.equilibrium import equilibrium
-from rodlab.analysis.events import branch_point
+from rodlab.analysis.events import Event, branch_point
 from rodlab.analysis.follow import Branch, follow
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.point import Point
@@ -50,14 +50,29 @@ def trivial(strut: Model, modes: int) -> Branch:
     return follow(equilibrium(strut, 0.0), to=float(last.mean()) if len(last) > 1 else 1.1 * float(last[0]), events=branch_point)
 
 
-def mode_starts(strut: Model, mode: int) -> list[Point]:
-    """The two starts where a mode leaves the straight branch, phi'(0) > 0 first."""
-    load = float(buckling_loads(strut, [mode])[0])
-    branch = trivial(strut, mode)
-    own = [e for e in branch.events if e.kind == "branch point" and abs(e.lam - load) <= e.error + 1e-9 * load]
+def mode_point(model: Model, mode: int) -> Event:
+    """The branch point of a mode on the straight branch, which is followed past it alone, whatever the sign of its load."""
+    below, load = _loads_to(model, mode)
+    gap = max(load - below, 0.01 * abs(load))
+    branch = follow(equilibrium(model, load - gap / 2), to=load + gap / 100, events=branch_point)
+    own = [e for e in branch.events if e.kind == "branch point" and abs(e.lam - load) <= e.error + 1e-9 * abs(load)]
     if not own:
         raise NoConvergence(f"the branch point of mode {mode} at {load:.9g} was not met: {branch.reason}", ())
-    return switch(own[0])
+    return own[0]
+
+
+def _loads_to(model: Model, mode: int) -> tuple[float, float]:
+    """The load of the mode before, and that of a mode; before the first one as far below it as it is from no load."""
+    if mode > 1:
+        below, load = buckling_loads(model, [mode - 1, mode])
+        return float(below), float(load)
+    load = float(buckling_loads(model, [mode])[0])
+    return load - abs(load), load
+
+
+def mode_starts(model: Model, mode: int) -> list[Point]:
+    """The two starts where a mode leaves the straight branch, phi'(0) > 0 first."""
+    return switch(mode_point(model, mode))
 
 
 def mode_branch(strut: Model, mode: int, to: float) -> Branch:
