@@ -359,7 +359,7 @@ def test_what_cannot_be_varied_gets_a_sentence():
         rl.vary(rl.Strut(n=3), "lam", 1.0)
     with pytest.raises(ValueError, match="beta must be given to be followed"):
         rl.vary(rl.Strut.from_joints(k=[1, 1]), "beta", 1.0)
-    with pytest.raises(ValueError, match="a strut has no argument m; it has n, K"):
+    with pytest.raises(ValueError, match="the model has no argument m; it has n, K"):
         rl.Strut(n=3).replace(m=4)
 
 

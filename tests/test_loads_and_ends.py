@@ -253,6 +253,9 @@ def test_a_clamped_hinged_rod_by_one_and_by_two_constraints():
     after = [rl.indices(p) for p in b.points if p.index == 1]
     assert after
     assert {(found.dead_load.negative, found.shortening.negative) for found in after} == {(1, 0)}
+    known = [rl.indices(p) for p in b.at(22.5)]  # one before the fold, one beyond
+    assert [(k.dead_load.negative, k.shortening.negative) for k in known] == [(0, 0), (1, 0)]
+    assert all(part.verified for k in known for part in k)
     vice = rl.follow(
         rl.equilibrium(rl.vary(model, "shortening"), 1 - b.points[-1].height, lambda s: b.points[-1](s).phi), to=0.05
     )
@@ -405,7 +408,7 @@ def test_strut_and_rod_have_the_same_wind():
         (lambda: rl.vary(rl.Rod(), "u_hat"), "lam must be given where u_hat is followed"),
         (lambda: rl.vary(rl.Rod(ends=("clamped", "hinged")), "phi1", lam=1.0), "phi1 must be held by the ends to be followed"),
         (lambda: rl.Rod(ends=("guided", "guided"), terms=rl.end_force(0.7)), "N1 must have something to act against"),
-        (lambda: rl.shearable(A1=-1.0), "A1 must be positive, or infinite; it is -1.0"),
+        (lambda: rl.shearable(A1=-1.0), "A1 must be a positive number, or infinite; it is -1.0"),
         (lambda: rl.potential("y"), "U: 'y' is not an expression in x and z: y is not known"),
         (lambda: rl.potential(3), "U must be an expression in x and z as a string; it is 3"),
         (lambda: rl.koiter(rl.Strut(n=3, ends=("clamped", "clamped"))), "strut must be clamped at the foot and free at the top"),
@@ -505,3 +508,80 @@ def test_loads_of_stiff_heavy_struts_are_refined_or_bisected():
     b = rl.buckling(strut, 5)
     assert b.loads == pytest.approx(eigh(H, W, eigvals_only=True), rel=1e-10)
     assert (b.error < 1e-9 * b.loads).all()
+
+
+def test_a_rod_that_was_used_before_is_as_good_as_a_new_one():
+    """Nothing computed for other equations is kept: errors, shapes and indices of a varied rod."""
+
+    def made():
+        return rl.Rod(ends=("clamped", "hinged"), u_hat=1.0, K="1+s", mesh=6)
+
+    used = made()
+    assert rl.equilibrium(used, 2.0).error < 1e-9
+    for name, value in (("offset", 0.2), ("u_hat", 0.3), ("K", 1.7), ("shortening", 0.2)):
+        lam = {} if name == "shortening" else {"lam": 2.0}
+        p, q = (rl.equilibrium(rl.vary(model, name, **lam), value) for model in (used, made()))
+        assert p(0.37).phi == pytest.approx(q(0.37).phi, abs=1e-9)
+        assert p.error < 1e-9
+        if name == "shortening":
+            assert rl.indices(p).dead_load.verified
+
+
+@pytest.mark.parametrize("model", [rl.Rod, lambda **more: rl.Strut(n=30, rule="trapezoid", **more)])
+def test_folds_of_a_held_model_are_followed_in_another_parameter(model):
+    held = model(ends=("clamped", "hinged"), u_hat=0.02)
+    b = rl.follow(rl.equilibrium(held, 0.0), to=24.0)
+    fold = next(e for e in b.events if e.kind == "fold")
+    moved = rl.follow(rl.folds(fold, "u_hat"), to=fold.lam - 0.05)
+    own = float(moved.points[-1].measure("u_hat"))
+    again = rl.follow(rl.equilibrium(held.replace(u_hat=own), 0.0), to=24.0)
+    other = next(e for e in again.events if e.kind == "fold")
+    assert moved.points[-1].lam == pytest.approx(other.lam, rel=1e-8)
+    assert abs(own) > 0.02
+
+
+def test_a_followed_model_stays_followed_when_it_is_replaced():
+    vice = rl.vary(rl.Strut(n=20, ends=("clamped", "clamped")), "shortening").replace(K=2.0)
+    assert rl.equilibrium(vice, 0.3, lambda s: np.sin(2 * np.pi * s)).height == pytest.approx(0.7, abs=1e-12)
+
+
+def test_several_potentials_are_kept_in_a_recipe():
+    from rodlab.mechanics.recipe import build
+
+    model = rl.Strut(n=3, terms=(rl.potential("z"), rl.potential("x")))
+    assert build(model.recipe).terms == model.terms
+
+
+def test_models_travel_to_other_processes():
+    import pickle
+
+    for model in (
+        rl.Rod(K="1 + s", ends=("clamped", "hinged"), terms=(rl.potential("z"),)),
+        rl.Strut(n=5, terms=(rl.self_weight("1 + s"), rl.end_force(0.2))),
+    ):
+        again = pickle.loads(pickle.dumps(model))
+        assert repr(again) == repr(model)
+        assert rl.equilibrium(again, 1.0).height == rl.equilibrium(model, 1.0).height
+
+
+def load_on_x(link):
+    return link.lam * link.x * link.h
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: rl.Rod(terms=rl.term(load_on_x)), "the loads lam and N1 must act through the angles"),
+        (lambda: rl.Strut(terms=rl.term(lambda link: 1 / 0 * link.h)), "must return a SymPy expression of the link: division by zero"),
+        (lambda: rl.Strut(terms=rl.term(wind, K=1.0)), "the parameter K of wind is already that of the model"),
+        (lambda: rl.Strut(terms=rl.term(wind, tau=1.0)), "the parameter tau of wind is the couple on the end"),
+        (lambda: rl.shearable(A1="5"), "A1 must be a positive number, or infinite; it is '5'"),
+        (lambda: rl.shearable(A1=5.0, shear=0.1), "A1 must not be given with shear, its inverse"),
+        (lambda: rl.shearable(extension=-1.0), "extension must not be negative; it is -1.0"),
+        (lambda: rl.Rod(ends=("clamped", "hinged")).replace(foo=1), "the model has no argument foo; it has K, u_hat"),
+        (lambda: rl.steepest_descent(rl.Strut(n=4, ends=("clamped", "hinged")), 1.0), "HeldStrut is held by constraints"),
+    ],
+)  # fmt: skip
+def test_misuse_gets_one_sentence(make, says):
+    with pytest.raises(ValueError, match=says):
+        make()

@@ -138,6 +138,7 @@ def _is_positive(matrix: Any) -> bool:
 
 def _energy(model: Equations) -> Any:
     if not has_energy(model):
-        raise ValueError(f"model must know its energy to go downhill; {type(model).__name__} has no measure 'energy'")
+        why = "is held by constraints" if hasattr(model, "constraints") else "has no measure 'energy'"
+        raise ValueError(f"model must know its energy, and that alone, to go downhill; {type(model).__name__} {why}")
     measures: dict[str, Any] = getattr(model, "measures", {})
     return measures["energy"]

@@ -3,7 +3,7 @@
     as named          model, branches, events: what the file asks for
     its picture       matplotlib, and drawing
     SymPy             the kernels derived anew, where shipped ones serve
-    a weight q = 0    one term more in the energy of a strut: its kernel is derived, and every Newton iteration computes it
+    a weight q = 0    one term more in the energy of a strut: kernels of loads are read, and every Newton iteration computes it
 
 Seconds are those of a whole process, the least of some runs; what something saves is what the process takes more with it.
 """

@@ -78,6 +78,8 @@ def reach_of(terms: Sequence[Term], link: Link) -> tuple[tuple[Expr, Expr], tupl
     e = energy_of(terms if acts else [*terms, END_FORCE], Link(link._weighted))
     absent = {} if acts else {N1: 0}
     dx, dz = (tidy(part.subs(absent)) for part in (-e.diff(N1), e.diff(lam)))
+    if dx.has(link.x, link.z) or dz.has(link.x, link.z):
+        raise ValueError("the loads lam and N1 must act through the angles of a link, not its place")
     hh, hN, NN = (tidy(e.diff(*pair).subs(absent)) for pair in ((lam, lam), (lam, N1), (N1, N1)))
     return (dx, dz), (hh, hN, NN)
 
@@ -139,7 +141,7 @@ def _energy(term: Term) -> Callable[[Link], Expr]:
             try:
                 e = sympy.sympify(own(link))
                 _ = e.free_symbols
-            except (TypeError, AttributeError, sympy.SympifyError) as error:
+            except (TypeError, ValueError, AttributeError, NameError, ArithmeticError, LookupError, sympy.SympifyError) as error:
                 raise ValueError(f"the term {term.name} must return a SymPy expression of the link: {error}") from error
             known = {*ARGUMENTS, "N1", "h", "w", "k", "beta", *term.parameters}
             unknown = sorted({s.name for s in e.free_symbols} - known)

@@ -65,6 +65,9 @@ class Expression:
         """The value for these values of the variables, by these functions: with SymPy's, a SymPy expression."""
         return self._value(names)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Expression, (self.text, self.variables))
+
     def __repr__(self) -> str:
         return f"Expression({self.text!r})"
 

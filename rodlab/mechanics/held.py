@@ -264,8 +264,8 @@ class Held:
         """The same with `name` in the load's place, at the dead load lam; the shortening, whose reaction is the load, without."""
         if self.follows != "lam":
             raise ValueError(f"a model can be varied once; this one is followed in {self.follows}")
-        other = copy(self)
-        other.follows, other._last, other.load = name, None, None
+        other = self._afresh()
+        other.follows, other.load = name, None
         if name == "shortening":
             if lam is not None:
                 raise ValueError(f"lam must not be given with the shortening, whose reaction it is; it is {lam:g}")
@@ -283,10 +283,41 @@ class Held:
         other._varied = self.base.vary(name, lam)
         return other
 
+    @property
+    def lam(self) -> float | None:
+        """The load that stays where another thing is followed."""
+        return self.load
+
+    @lam.setter
+    def lam(self, lam: float) -> None:
+        self.load, self._last = lam, None
+
+    def sharing(self, value: float) -> Any:
+        """The model with this value of what is followed, under any load, on the same mesh."""
+        other = self._afresh()
+        other.follows, other.load, other._varied = "lam", None, None
+        if self._varied is not None:
+            other.base = self._varied.sharing(value)
+        elif self.follows in GIVEN:
+            other.targets = {**self.targets, GIVEN[self.follows]: value}
+        return other
+
+    def replace(self, **changes: Any) -> Any:
+        """The same with other arguments, or other parameters of its terms, followed in what this one is followed in."""
+        plain = super().replace(**changes)  # type: ignore[misc]
+        return plain if self.follows == "lam" else plain.vary(self.follows, self.load)
+
+    def _afresh(self) -> Any:
+        """A copy without what was computed for these equations."""
+        fresh = getattr(self, "fresh", None)
+        other = copy(self) if fresh is None else fresh()
+        other._last = None
+        return other
+
     def released(self) -> Any:
         """Where the shortening is followed: the same under a dead load."""
-        other = copy(self)
-        other.follows, other._last = "lam", None
+        other = self._afresh()
+        other.follows = "lam"
         other.unknowns = tuple(name for name in self.unknowns if name != "lam")
         return other
 

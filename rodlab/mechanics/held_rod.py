@@ -56,7 +56,15 @@ class HeldRod(Held, Rod):  # type: ignore[misc]  # what no bound is known for is
 
     def at(self, value: float) -> Rod:
         """The rod with this value of what is followed."""
-        return VariedRod(self.replace(), self.follows, 0.0).at(value) if self._varied else self.replace(**{self.follows: value})
+        if self._varied is not None:
+            return VariedRod(Rod.replace(self), self.follows, 0.0).at(value)
+        return Rod.replace(self, **{self.follows: value})
+
+    def sharing(self, value: float) -> "HeldRod":
+        """The model with this value of what is followed, under any load, on the same mesh."""
+        other: HeldRod = super().sharing(value)
+        other.parameters, other.profiles, other.curved = other.base.parameters, other.base.profiles, other.base.curved
+        return other
 
     def __repr__(self) -> str:
         return self._said(f"Rod({said_of_rod(self.arguments, self.terms)}")

@@ -53,7 +53,9 @@ class HeldStrut(Held, Strut):  # type: ignore[misc]  # what no bound is known fo
 
     def at(self, value: float) -> Strut:
         """The strut with this value of what is followed."""
-        return VariedStrut(self.replace(), self.follows, 0.0).at(value) if self._varied else self.replace(**{self.follows: value})
+        if self._varied is not None:
+            return VariedStrut(Strut.replace(self), self.follows, 0.0).at(value)
+        return Strut.replace(self, **{self.follows: value})
 
     def __repr__(self) -> str:
         return self._said(f"Strut({said_of(self.arguments, self.n, self.terms)}")

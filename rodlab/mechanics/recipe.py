@@ -1,6 +1,6 @@
 """A model as plain data: what a scene's [model] table and a saved branch hold, numbers, text and lists.
 
-{"n": 100, "u_hat": 0.01, "terms": {"self_weight": {"q": 2.0}}}        a Strut
+{"n": 100, "u_hat": 0.01, "terms": {"self_weight": {"q": 2.0}}}        a Strut; several of one name as a list
 {"k": [1, 1], "beta": [0.1, 0]}                                        Strut.from_joints
 {"model": "rod", "K": "1 + s", "degree": 6}                            a Rod; with "points" on that mesh
 {..., "vary": "u_hat", "lam": 5.0}                                     the same, followed in u_hat at a load
@@ -41,7 +41,8 @@ def build(recipe: Mapping[str, Any]) -> "Strut | Rod | VariedStrut | VariedRod":
     kind, vary, lam = given.pop("model", "strut"), given.pop("vary", None), given.pop("lam", None)
     if kind not in ("strut", "rod"):
         raise ValueError(f"model must be 'strut' or 'rod'; it is {kind!r}")
-    terms = tuple(_term(name, parameters) for name, parameters in _table("terms", given.pop("terms", {})).items())
+    listed = _table("terms", given.pop("terms", {})).items()
+    terms = tuple(_term(name, each) for name, said in listed for each in (said if isinstance(said, list) else [said]))
     joints = kind == "strut" and "k" in given
     known = OF_ROD if kind == "rod" else BY_JOINT if joints else BY_RULE
     unknown = [name for name in given if name not in known]
@@ -74,8 +75,11 @@ def _rod(given: dict[str, Any], terms: tuple[Term, ...]) -> "Rod":
 def recipe_of(arguments: Mapping[str, Any], terms: Sequence[Term]) -> dict[str, Any] | None:
     """The recipe of a strut's arguments; None where one of them is a function."""
     recipe = {name: _plain(value) for name, value in arguments.items() if name != "terms" and value is not None}
-    said = {term.name: {name: _plain(value) for name, value in term.arguments.items()} for term in terms}
-    values = [*recipe.values(), *(value for parameters in said.values() for value in parameters.values())]
+    said: dict[str, Any] = {}
+    for term in terms:
+        said.setdefault(term.name, []).append({name: _plain(value) for name, value in term.arguments.items()})
+    values = [*recipe.values(), *(value for each in said.values() for parameters in each for value in parameters.values())]
+    said = {name: each[0] if len(each) == 1 else each for name, each in said.items()}
     if any(callable(value) for value in values) or any(term.own for term in terms):
         return None
     return {**recipe, "terms": said} if said else recipe
@@ -91,8 +95,8 @@ def changed(arguments: Mapping[str, Any], terms: Sequence[Term], changes: Mappin
         elif name in given or name in HELD:
             given[name] = value
         else:
-            known = [*given, *(p for term in own for p in term.parameters)]
-            raise ValueError(f"a strut has no argument {name}; it has {', '.join(known)}")
+            known = list(dict.fromkeys([*given, *HELD, *(p for term in own for p in term.parameters)]))
+            raise ValueError(f"the model has no argument {name}; it has {', '.join(known)}")
     if "terms" not in changes:
         given["terms"] = tuple(own)
     return given

@@ -35,6 +35,15 @@ class RodEnergy:
         """Number of unknowns."""
         return self.grid.N * self.grid.degree
 
+    def __copy__(self) -> Any:
+        other = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        return other
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without the kernels, which may have been compiled here: they are found or derived again."""
+        return {name: value for name, value in self.__dict__.items() if name not in ("_with_load", "_without_load")}
+
     def kernel(self, lam: float = 1.0) -> Any:
         """The compiled derivatives of the density; at lam = 0 the load does not occur in it."""
         return self._with_load if lam else self._without_load

@@ -59,6 +59,10 @@ class Term:
         return f"{self.name}({', '.join(f'{k}={v!r}' for k, v in self.arguments.items())})"
 
 
+TAKEN = (
+    "a", "b", "x", "z", "lam", "k", "beta", "h", "w", "phi", "phi_s", "K", "u_hat", "n", "rule", "phi0", "beta0", "phi1", "x0",
+    "offset", "shortening", "breaks", "weights", "degree", "mesh", "tol", "ends", "terms",
+)  # fmt: skip
 BENDING = Term("bending")
 BENDING_WITH_REST = Term("bending_with_rest")
 END_LOAD = Term("end_load")
@@ -112,12 +116,17 @@ def shearable(A1: float = math.inf, A3: float = math.inf, *, shear: Any = None, 
     >>> shearable(A3=50.0)
     shearable(shear=0.0, extension=0.02)
     """
-    given = {"shear": shear, "extension": extension}
-    for name, own, stiffness in (("A1", "shear", A1), ("A3", "extension", A3)):
-        if given[own] is None:
-            if not (np.ndim(stiffness) == 0 and stiffness > 0):
-                raise ValueError(f"{name} must be positive, or infinite; it is {stiffness!r}")
+    given = {}
+    for name, own, stiffness, inverse in (("A1", "shear", A1, shear), ("A3", "extension", A3, extension)):
+        given[own] = inverse
+        if inverse is None:
+            if isinstance(stiffness, bool) or not isinstance(stiffness, (int, float, np.number)) or not stiffness > 0:
+                raise ValueError(f"{name} must be a positive number, or infinite; it is {stiffness!r:.60}")
             given[own] = 1 / float(stiffness)
+        elif stiffness != math.inf:
+            raise ValueError(f"{name} must not be given with {own}, its inverse; they are {stiffness!r:.40} and {inverse!r:.40}")
+        elif isinstance(inverse, (int, float)) and not inverse >= 0:
+            raise ValueError(f"{own} must not be negative; it is {inverse!r}")
     return Term("shearable", given)
 
 
@@ -153,7 +162,7 @@ def term(energy: Callable[[Any], Any], **parameters: Any) -> Term:
 def checked(terms: Any) -> tuple[Term, ...]:
     """The terms as a tuple, or one sentence about the first that is none or whose parameters are taken."""
     given: tuple[Any, ...] = tuple(terms) if isinstance(terms, (tuple, list)) else (terms,)
-    taken: dict[str, str] = dict.fromkeys(("a", "b", "x", "z", "lam", "k", "beta", "h", "w", "phi", "phi_s"), "the model")
+    taken: dict[str, str] = dict.fromkeys(TAKEN, "the model")
     for term in given:
         if not isinstance(term, Term):
             raise ValueError(
@@ -163,6 +172,8 @@ def checked(terms: Any) -> tuple[Term, ...]:
         for name in term.parameters:
             if name.startswith("_") or keyword.iskeyword(name) or hasattr(np, name) or re.fullmatch(r"t\d+", name):
                 raise ValueError(f"the parameter {name} of {term.name} must have a name that numpy and the kernel do not use")
+            if name == "tau" and term.name != "end_torque":
+                raise ValueError(f"the parameter tau of {term.name} is the couple on the end; give it another name")
             if name == "N1" and term.name != "end_force":
                 raise ValueError(
                     f"the parameter N1 of {term.name} is the dead force on the end; give end_force(N1) as well, and use it"
