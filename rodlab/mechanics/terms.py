@@ -115,7 +115,7 @@ def shearable(A1: float = math.inf, A3: float = math.inf, *, shear: Any = None, 
     given = {"shear": shear, "extension": extension}
     for name, own, stiffness in (("A1", "shear", A1), ("A3", "extension", A3)):
         if given[own] is None:
-            if not (np.ndim(stiffness) == 0 and stiffness > 0):
+            if isinstance(stiffness, str) or not (np.ndim(stiffness) == 0 and stiffness > 0):
                 raise ValueError(f"{name} must be positive, or infinite; it is {stiffness!r}")
             given[own] = 1 / float(stiffness)
     return Term("shearable", given)
