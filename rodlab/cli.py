@@ -253,13 +253,13 @@ def run(chosen: argparse.Namespace) -> int:
 
 def _as_many_as(each: Iterable[tuple[float, float]], *, all_of_them: bool) -> Iterator[tuple[float, float]]:
     """Loads up to the last that there is: a model between ends, or one that would be crushed, may have fewer than asked for."""
-    found = False
+    known = False
     try:
         for load in each:
-            found = True
             yield load
+            known = True
     except ValueError:
-        if all_of_them or not found:
+        if all_of_them or not known:
             raise
 
 

@@ -13,6 +13,11 @@ import rodlab
 from rodlab import cli
 from rodlab.lab.studies.study import KINDS
 
+LOADS = (  # scenes that have tests of their own
+    "foundation", "end-torque", "end-force", "potential", "shearable", "clamped-hinged", "guided", "offset", "shortening",
+    "dead-or-rigid", "agreement",
+)  # fmt: skip
+
 
 def run(*arguments, code=0):
     done = subprocess.run([sys.executable, "-m", "rodlab", *arguments], capture_output=True, text=True, check=False)
@@ -234,7 +239,9 @@ TRUTHS = {
 }
 
 
-@pytest.mark.parametrize("name", [name for name in scene_names() if name not in KINDS])  # studies have tests of their own
+@pytest.mark.parametrize(
+    "name", [name for name in scene_names() if name not in (*KINDS, *LOADS)]
+)  # these have tests of their own
 def test_every_scene_of_the_house_runs(name, tmp_path, capsys):
     assert cli.main(["run", name, "--out", str(tmp_path), "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
@@ -302,7 +309,7 @@ def test_a_wrong_scene_gets_a_sentence(text, says, tmp_path, capsys):
 
 def test_a_scene_that_is_not_there(capsys):
     assert cli.main(["run", "nowhere"]) == 2
-    assert "scene must be one of bend, connected" in capsys.readouterr().err
+    assert "scene must be one of agreement, bend" in capsys.readouterr().err
     assert cli.main(["run", "nowhere.toml"]) == 2
     assert "cannot be read" in capsys.readouterr().err
 
@@ -529,3 +536,133 @@ def test_the_rod_on_the_command_line(capsys):
 def test_wrong_options_of_a_rod(capsys, options, said):
     assert cli.main(["buckling", *options]) == 2
     assert said in capsys.readouterr().err
+
+
+# --- ends and loads ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "loads", "within"),
+    [
+        (["--ends", "clamped,clamped"], [4 * np.pi**2, 80.7629142257], 1e-4),
+        (["--model", "rod", "--ends", "clamped, hinged"], [20.1907285564, 59.6795159441], 1e-9),
+        (["--model", "rod", "--ends", "hinged,hinged", "--K", "2"], [2 * np.pi**2, 8 * np.pi**2], 1e-9),
+        (["--model", "rod", "--ends", "clamped,free"], [np.pi**2 / 4, 9 * np.pi**2 / 4], 1e-9),
+        (["--model", "rod", "--term", "shearable A3=50 A1=inf"], [25 - (625 - 12.5 * np.pi**2) ** 0.5], 1e-9),
+        (["--model", "rod", "--ends", "hinged,hinged", "--term", "foundation c=5"], [np.pi**2 + 5 / np.pi**2], 1e-9),
+        (["--term", "potential U=7.8373474*z"], [0.0], 0.03),
+    ],
+)
+def test_buckling_between_ends_and_under_loads(options, loads, within, capsys):
+    assert cli.main(["buckling", *options, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)["loads"][: len(loads)]
+    assert found == pytest.approx(loads, rel=within, abs=within)
+
+
+def test_the_answer_says_ends_and_terms(capsys):
+    arguments = ["buckling", "-n", "50", "--ends", "clamped,hinged", "--term", "self_weight q=-2", "--term", "foundation c=1 + s"]
+    assert cli.main([*arguments, "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    recipe = {name: answer[name] for name in ("n", "ends", "terms")}
+    assert recipe == {"n": 50, "ends": ["clamped", "hinged"], "terms": {"self_weight": {"q": -2.0}, "foundation": {"c": "1 + s"}}}
+    strut = rodlab.Strut(n=50, ends=("clamped", "hinged"), terms=(rodlab.self_weight(-2.0), rodlab.foundation("1 + s")))
+    assert answer["loads"] == rodlab.buckling_loads(strut, 3).tolist()
+    assert cli.main(arguments) == 0
+    said = capsys.readouterr().out
+    for part in ("ends=('clamped', 'hinged')", "self_weight(q=-2.0)", "foundation(c='1 + s')"):
+        assert part in said
+
+
+def test_an_expression_with_comparisons_is_one_value(capsys):
+    K = "foundation c=Piecewise((1, s <= 1/2), (3, True))"
+    assert cli.main(["buckling", "-n", "20", "--term", K, "--modes", "1", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["terms"] == {"foundation": {"c": "Piecewise((1, s <= 1/2), (3, True))"}}
+
+
+def test_without_a_number_of_modes_there_are_as_many_as_there_are(capsys):
+    for options, count in ((["-n", "3", "--ends", "clamped,clamped"], 1), (["--term", "shearable A3=50"], 2)):
+        assert cli.main(["buckling", *options, "--json"]) == 0
+        answer = json.loads(capsys.readouterr().out)
+        assert len(answer["loads"]) == len(answer["error"]) == count
+        assert answer["modes"] == list(range(1, count + 1))
+        assert cli.main(["buckling", *options, "--modes", "3"]) == 2
+        assert f"modes must be at most {count}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("options", "begins"),
+    [
+        (["--model", "rod", "--ends", "clamped,hinged", "--to", "22"], 20.1907285564),
+        (["-n", "20", "--term", "self_weight q=10", "--to", "1"], -1.2048531879),  # the load of the first mode is a pull
+        (
+            ["-n", "20", "--term", "shearable A3=50", "--mode", "2", "--to", "48"],
+            47.5306912311,
+        ),  # the last below the crushing one
+        (["-n", "20", "--ends", "clamped,clamped", "--mode", "2", "--to", "85"], 79.5439725425),
+    ],
+)
+def test_follow_a_mode_between_ends_and_under_loads(options, begins, capsys):
+    assert cli.main(["follow", "--mode", "1", *options, "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["completed"]
+    assert answer["points"][0]["lam"] == pytest.approx(begins, abs=0.2)
+    assert answer["points"][-1]["lam"] == float(options[-1])
+
+
+def test_a_diagram_between_ends(capsys, tmp_path):
+    out = tmp_path / "d.svg"
+    assert cli.main(["diagram", "-n", "8", "--ends", "clamped,hinged", "--to", "20", "--json", "--out", str(out)]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["ends"] == ["clamped", "hinged"]
+    assert [row["kind"] for row in answer["table"]].count("supercritical pitchfork") == 1
+    assert out.exists()
+
+
+def test_equilibria_under_loads(capsys):
+    terms = ["--term", "self_weight q=2", "--term", "end_torque tau=0.3"]
+    assert cli.main(["equilibria", "--lam", "10", *terms, "--certify", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["terms"] == {"self_weight": {"q": 2.0}, "end_torque": {"tau": 0.3}}
+    strut = rodlab.Strut(n=5, terms=(rodlab.self_weight(2.0), rodlab.end_torque(0.3)))
+    assert len(answer["equilibria"]) == len(rodlab.all_equilibria(strut, 10.0))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (
+            ["buckling", "--ends", "clamped"],
+            "ends must be two of 'clamped', 'hinged', 'guided', 'free', the foot first; they are",
+        ),
+        (["buckling", "--ends", "clamped,welded"], "they are ['clamped', 'welded']"),
+        (["buckling", "--ends", ""], "ends must be two of"),
+        (["buckling", "--term", ""], "term must be a name and its parameters, such as"),
+        (["buckling", "--term", "self_weight"], "it is 'self_weight'"),
+        (["buckling", "--term", "self_weight 2"], "it is 'self_weight 2'"),
+        (["buckling", "--term", "self_weight q="], "it is 'self_weight q='"),
+        (["buckling", "--term", "self_weight(q=2)"], "it is 'self_weight(q=2)'"),
+        (["buckling", "--term", "self_weight q=2 q=3"], "term must give each parameter once"),
+        (["buckling", "--term", "self_weight q=2", "--term", "self_weight q=3"], "self_weight is given twice"),
+        (["buckling", "--term", "wind p=2"], "terms must be among self_weight, foundation"),
+        (["buckling", "--term", "self_weight p=2"], "it takes q"),
+        (["buckling", "--term", "self_weight q=nan"], "q must be a finite number; it is nan"),
+        (["buckling", "--term", "foundation c=inf"], "c must be a finite number; it is inf"),
+        (["buckling", "--term", "foundation c=__import__('os').getcwd()"], "is not an expression in s"),
+        (["buckling", "--term", "end_force N1=s"], "N1 must be a finite number; it is 's'"),
+        (["buckling", "--term", "shearable A3=s"], "A3 must be positive, or infinite; it is 's'"),
+        (["buckling", "--term", "potential U=q"], "is not an expression in x and z"),
+        (["buckling", "--term", "potential U=2"], "U must be an expression in x and z"),
+        (["buckling", "--term", "end_force N1=0.5"], "model must be straight to buckle"),
+        (["buckling", "-n", "2", "--ends", "hinged,clamped"], "modes must be at most 0, the number of loads"),
+        (["follow", "--to", "5", "--ends", "clamped,hinged", "--term", "end_force N1=1"], "there it is a reaction"),
+        (["follow", "--to", "5", "-n", "9", "--mode", "1", "--ends", "hinged,free"], "mode must be one that has a load"),
+        (["diagram", "--to", "5", "--term", "wind p=2"], "terms must be among"),
+        (["equilibria", "--lam", "5", "--term", "foundation c=1"], "the terms must be self_weight or end_torque"),
+    ],
+)
+def test_wrong_ends_and_terms_get_a_sentence(arguments, says, capsys):
+    assert cli.main(arguments) == 2
+    seen = capsys.readouterr()
+    assert says in seen.err
+    assert seen.err.count("\n") == 1
+    assert seen.out == ""

@@ -41,6 +41,7 @@ def timed(name: str, run: Callable[[], Branch]) -> Shown:
 
 
 Model = Strut | Rod
+STILL = 1e-9  # a load that is none, times the flexibility
 
 
 def trivial(strut: Model, modes: int) -> Branch:
@@ -53,6 +54,8 @@ def trivial(strut: Model, modes: int) -> Branch:
 def mode_point(model: Model, mode: int) -> Event:
     """The branch point of a mode on the straight branch, which is followed past it alone, whatever the sign of its load."""
     below, load = _loads_to(model, mode)
+    if abs(load) * getattr(model, "base", model).flexibility < STILL:
+        raise ValueError(f"mode must be one that has a load; mode {mode} is at no load, where the ends let all of it turn")
     gap = max(load - below, 0.01 * abs(load))
     branch = follow(equilibrium(model, load - gap / 2), to=load + gap / 100, events=branch_point)
     own = [e for e in branch.events if e.kind == "branch point" and abs(e.lam - load) <= e.error + 1e-9 * abs(load)]

@@ -19,7 +19,7 @@ from rodlab.analysis.imperfection import Imperfection, imperfection
 from rodlab.analysis.newton import NoConvergence
 from rodlab.analysis.unfolding import folds
 from rodlab.analysis.vary import vary
-from rodlab.lab.branches import detached, trivial
+from rodlab.lab.branches import detached, mode_point
 from rodlab.mechanics.strut import Strut
 from rodlab.numerics.arrays import Array
 
@@ -62,7 +62,7 @@ def breaking(strut: Strut, name: str = "u_hat", most: float = 0.1, off: Sequence
     (array([0.667]), array([0.333, 0.333, 0.333, 0.333]))
     """
     vary(strut, name, 0.0)  # a name that the strut does not have is said at once
-    event = next(e for e in trivial(strut, 1).events if e.kind == "branch point")
+    event = mode_point(strut, 1)
     law = imperfection(event, name)
     bent = strut.replace(**{name: most})
     cut = follow(detached(bent, 4 * event.lam), to=0.0)

@@ -73,7 +73,7 @@ def scenes() -> list[Scene]:
     """The scenes of the house, by name.
 
     >>> [scene.name for scene in scenes()][:3]
-    ['bend', 'connected', 'convergence']
+    ['agreement', 'bend', 'clamped-hinged']
     """
     return [read_scene(path) for path in sorted(HOUSE.glob("*.toml"))]
 

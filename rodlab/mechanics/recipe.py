@@ -6,6 +6,7 @@
 {..., "vary": "u_hat", "lam": 5.0}                                     the same, followed in u_hat at a load
 """
 
+import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -137,7 +138,8 @@ def _term(name: str, parameters: Any) -> Term:
     try:
         return TERMS[name](**_table(f"terms.{name}", parameters))
     except TypeError as error:
-        raise ValueError(f"terms.{name} has the wrong parameters: {error}") from None
+        takes = ", ".join(inspect.signature(TERMS[name]).parameters)
+        raise ValueError(f"terms.{name} has the wrong parameters: {error}; it takes {takes}") from None
 
 
 def _table(name: str, value: Any) -> Mapping[str, Any]:
