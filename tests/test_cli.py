@@ -649,7 +649,7 @@ def test_equilibria_under_loads(capsys):
         (["buckling", "--term", "foundation c=inf"], "c must be a finite number; it is inf"),
         (["buckling", "--term", "foundation c=__import__('os').getcwd()"], "is not an expression in s"),
         (["buckling", "--term", "end_force N1=s"], "N1 must be a finite number; it is 's'"),
-        (["buckling", "--term", "shearable A3=s"], "A3 must be positive, or infinite; it is 's'"),
+        (["buckling", "--term", "shearable A3=s"], "A3 must be a positive number, or infinite; it is 's'"),
         (["buckling", "--term", "potential U=q"], "is not an expression in x and z"),
         (["buckling", "--term", "potential U=2"], "U must be an expression in x and z"),
         (["buckling", "--term", "end_force N1=0.5"], "model must be straight to buckle"),

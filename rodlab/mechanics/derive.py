@@ -26,6 +26,7 @@ from rodlab.mechanics import link as standard_link
 from rodlab.mechanics.link import Link
 from rodlab.mechanics.terms import END_FORCE, Term
 
+LONG = 40  # operations up to which an expression is simplified
 ARGUMENTS = ("a", "b", "x", "z", "lam")
 
 
@@ -125,12 +126,12 @@ def kernel_name(terms: Sequence[Term], *, weighted: bool) -> str:
 
 
 def tidy(expression: Expr) -> Expr:
-    """The expression with common factors taken out and sums collected.
+    """The expression with common factors taken out and sums collected; a long one, which takes SymPy seconds, as it is.
 
     >>> a, b, k = sympy.symbols("a b k"); tidy(k * (2 * a - 2 * b) / 2)
     k*(a - b)
     """
-    return sympy.factor_terms(sympy.simplify(expression))
+    return sympy.factor_terms(expression if expression.count_ops() > LONG else sympy.simplify(expression))
 
 
 def _energy(term: Term) -> Callable[[Link], Expr]:
