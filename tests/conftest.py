@@ -1,4 +1,8 @@
-"""What the tests share: random struts."""
+"""What the tests share: one thread each, and random struts."""
+
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as many workers as cores: threads of small matrices only wait for each other
 
 import hypothesis
 import numpy as np
