@@ -1,0 +1,139 @@
+"""An exercise in one file: the teacher's, from which the students' folder is made.
+
+\"\"\"statement\"\"\"          -> README.md, and the notebook's first cell
+# %% answer            -> answer.py and answer.ipynb, without what stands between ### BEGIN SOLUTION and ### END SOLUTION
+# %% checks            -> check.py
+# %% proofs            -> stays: for each classic mistake the edit of the answer that makes it, which the tests try
+
+python -m rodlab.lab.taught exercises/teacher/*.py       makes the folders beside `teacher`
+"""
+
+import ast
+import json
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rodlab.files import write_whole
+
+CELL = re.compile(r"^# %% (answer|checks|proofs)[ \t]*\n", re.MULTILINE)
+SOLUTION = re.compile(r"^([ \t]*)### BEGIN SOLUTION[ \t]*\n.*?^[ \t]*### END SOLUTION[ \t]*\n", re.MULTILINE | re.DOTALL)
+STUB = "# YOUR CODE HERE\nraise NotImplementedError\n"
+
+
+@dataclass(frozen=True)
+class Taught:
+    """A teacher's file, taken apart."""
+
+    name: str
+    statement: str
+    answer: str
+    checks: str
+    proofs: str
+
+    @property
+    def stub(self) -> str:
+        """The answer without its solutions."""
+        return SOLUTION.sub(lambda found: "".join(f"{found[1]}{line}\n" for line in STUB.splitlines()), self.answer)
+
+    @property
+    def reference(self) -> str:
+        """The answer with its solutions."""
+        return self.answer
+
+    def mistaken(self) -> dict[str, str]:
+        """For each classic mistake, "question: name", the answer of one who makes it."""
+        found: dict[str, Any] = {}
+        exec(self.proofs, found)  # noqa: S102 the teacher's own
+        return {name: _edited(self.answer, edits, f"{self.name}, {name}") for name, edits in found["PROOFS"].items()}
+
+
+def _edited(text: str, edits: Any, what: str) -> str:
+    for old, new in [edits] if isinstance(edits[0], str) else edits:
+        if text.count(old) != 1:
+            raise ValueError(f"{what}: {old!r} must be in the answer once; it is there {text.count(old)} times")
+        text = text.replace(old, new)
+    return text
+
+
+def taught(path: Path) -> Taught:
+    """A teacher's file, taken apart; `ValueError` in one sentence if it is not one."""
+    text = path.read_text(encoding="utf-8")
+    statement = ast.get_docstring(ast.parse(text))
+    parts = CELL.split(text)
+    cells = dict(zip(parts[1::2], parts[2::2], strict=True))
+    missing = [name for name in ("answer", "checks", "proofs") if name not in cells]
+    if statement is None or missing:
+        raise ValueError(
+            f"{path} must have a docstring and the cells # %% answer, checks, proofs; it lacks {missing or 'the first'}"
+        )
+    if not SOLUTION.search(cells["answer"]):
+        raise ValueError(f"{path} must mark its solutions by ### BEGIN SOLUTION and ### END SOLUTION; it has no such mark")
+    return Taught(path.stem, statement, *(cells[name].strip() + "\n" for name in ("answer", "checks", "proofs")))
+
+
+def folder_of(found: Taught) -> dict[str, str]:
+    """The students' folder, file by file."""
+    foot = (
+        f"\n\n## Check it\n\nWrite your answer in `answer.py` (then `rodlab check exercises/{found.name}`) or in the notebook "
+        f'`answer.ipynb` (its last cell is `rl.check("{found.name}", globals())`). A first hint: `rl.hint("{found.name}")`.\n'
+    )
+    title = found.statement.splitlines()[0].lstrip("# ")
+    return {
+        "README.md": found.statement + foot,
+        "answer.py": f"# rodlab exercise: {found.name}\n{found.stub}",
+        "answer.ipynb": notebook(found, found.stub),
+        "check.py": f'"""Checks of the exercise "{title}"; made from the teacher\'s file."""\n\n{found.checks}',
+    }
+
+
+def notebook(found: Taught, answer: str, *, nbgrader: bool = False) -> str:
+    """A notebook of the statement, an answer and its check; for nbgrader with its marks on the cells."""
+    check = f'import rodlab as rl\n\nrl.check("{found.name}", globals())'
+    graded = f'import rodlab as rl\n\nassert rl.check("{found.name}", globals()).passed'
+    cells = [
+        _cell("markdown", f"{found.name}-statement", found.statement),
+        _cell(
+            "code", f"{found.name}-answer", f"# rodlab exercise: {found.name}\n{answer}", *((("solution",)) if nbgrader else ())
+        ),
+        _cell("code", f"{found.name}-check", graded if nbgrader else check, *(("grade",) if nbgrader else ())),
+    ]
+    kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    content = {
+        "cells": cells,
+        "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+
+
+def _cell(kind: str, name: str, text: str, *marks: str) -> dict[str, Any]:
+    cell: dict[str, Any] = {
+        "cell_type": kind,
+        "id": name[-64:],
+        "metadata": {},
+        "source": text.rstrip("\n").splitlines(keepends=True),
+    }
+    if kind == "code":
+        cell |= {"execution_count": None, "outputs": []}
+    if marks:
+        cell["metadata"]["nbgrader"] = {
+            "grade": "grade" in marks, "solution": "solution" in marks, "locked": "grade" in marks, "task": False, "schema_version": 3,
+            "grade_id": name, **({"points": 1} if "grade" in marks else {}),
+        }  # fmt: skip
+    return cell
+
+
+def make(path: Path, out: Path | None = None) -> list[Path]:
+    """Write the students' folder of a teacher's file, beside the teacher's tree or in `out`."""
+    found = taught(path)
+    folder = (out or path.resolve().parents[1]) / found.name
+    return [write_whole(folder / name, text) for name, text in folder_of(found).items()]
+
+
+if __name__ == "__main__":
+    for given in sys.argv[1:]:
+        make(Path(given))

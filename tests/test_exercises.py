@@ -1,0 +1,82 @@
+"""Every exercise: the reference has all points, the stub none and a sentence, each classic mistake its own hint."""
+
+import ast
+import json
+from pathlib import Path
+
+import pytest
+
+from rodlab.lab import course
+from rodlab.lab.taught import folder_of, taught
+
+ROOT = Path(__file__).parents[1]
+TEACHER = sorted((ROOT / "exercises" / "teacher").glob("*.py"))
+FILES = {path.stem: path for path in TEACHER}
+
+
+def judged(name, source, seed=None):
+    """The submission's functions asked in this process: quick, and the same values as those of a process apart."""
+    names = {"__name__": "answer"}
+    exec(compile(source, "answer.py", "exec"), names)
+    return course.check(name, names, seed=seed)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_folder_is_the_teachers_file_without_its_solutions(name):
+    found = taught(FILES[name])
+    for file, text in folder_of(found).items():
+        assert (ROOT / "exercises" / name / file).read_text() == text, f"run: python -m rodlab.lab.taught {FILES[name]}"
+    assert "SOLUTION" not in found.stub
+    cells = json.loads(folder_of(found)["answer.ipynb"])["cells"]
+    assert [cell["cell_type"] for cell in cells] == ["markdown", "code", "code"]
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_reference_has_all_points_in_a_process_of_its_own(name):
+    report = course.check_source(course.exercise(name), taught(FILES[name]).reference, seed=20261122)
+    assert report.percent == 100.0, str(report)
+    assert report.passed
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_reference_holds_for_other_parameters(name):
+    for seed in range(1, 6):
+        report = judged(name, taught(FILES[name]).reference, seed)
+        assert report.passed, f"seed {seed}: {report}"
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_stub_has_no_points_and_says_so(name):
+    report = judged(name, taught(FILES[name]).stub)
+    assert report.score == 0.0
+    assert {item.status for item in report.items} == {"unanswered"}
+    assert all("is not answered yet" in item.sentence for item in report.items)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_each_classic_mistake_has_its_own_hint(name):
+    exercise = course.exercise(name)
+    known = {f"{q.name}: {m.name}": m.hint for q in exercise.questions for m in q.mistakes}
+    tried = taught(FILES[name]).mistaken()
+    assert set(tried) == set(known), "every mistake of the checks is proved, and no other"
+    assert len(known) >= 3
+    assert len(set(known.values())) == len(known), "each has its own hint"
+    for mistake, source in tried.items():
+        report = judged(name, source, seed=3)
+        assert report.score < report.max_score, f"{mistake} has all points"
+        assert mistake in report.mistakes, f"{mistake} is not recognised:\n{report}"
+        assert known[mistake] in str(report)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_statement_and_checks_are_whole(name):
+    found = taught(FILES[name])
+    exercise = course.exercise(name)
+    functions = {node.name for node in ast.parse(found.answer).body if isinstance(node, ast.FunctionDef)}
+    for question in exercise.questions:
+        assert question.name in functions
+        assert f"`{question.name}(" in found.statement, f"the statement does not say what {question.name} is"
+        assert question.hint
+        assert question.points > 0
+    assert found.statement.startswith(f"# {exercise.title}\n")
+    assert exercise.source
