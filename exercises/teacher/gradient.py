@@ -1,9 +1,9 @@
-"""# The gradient of the strut's energy
+r"""# The gradient of the strut's energy
 
 A strut of $n$ joints [N 2.7] has the energy
 
-$$V(\\phi; \\lambda) = \\sum_{i=1}^n \\tfrac12 k_i (\\phi_i - \\phi_{i-1} - \\beta_i)^2 + \\lambda h \\sum_{i=1}^n \\cos\\phi_i,
-\\qquad \\phi_0 = \\beta_0 = 0 .$$
+$$V(\phi; \lambda) = \sum_{i=1}^n \tfrac12 k_i (\phi_i - \phi_{i-1} - \beta_i)^2 + \lambda h \sum_{i=1}^n \cos\phi_i,
+\qquad \phi_0 = \beta_0 = 0 .$$
 
 The first sum is stored in the springs, the second is the load times the height of its point of application. An equilibrium is a
 zero of the gradient: the balance of moments about each joint.

@@ -1,8 +1,8 @@
-"""# Two joints
+r"""# Two joints
 
-The strut of two joints [N 2.7, exercise session] with unit springs and unit links, $k_1 = k_2 = h = 1$, $\\beta = 0$, has the energy
+The strut of two joints [N 2.7, exercise session] with unit springs and unit links, $k_1 = k_2 = h = 1$, $\beta = 0$, has the energy
 
-$$V(\\phi_1, \\phi_2; \\lambda) = \\tfrac12 \\phi_1^2 + \\tfrac12 (\\phi_2 - \\phi_1)^2 + \\lambda (\\cos\\phi_1 + \\cos\\phi_2) .$$
+$$V(\phi_1, \phi_2; \lambda) = \tfrac12 \phi_1^2 + \tfrac12 (\phi_2 - \phi_1)^2 + \lambda (\cos\phi_1 + \cos\phi_2) .$$
 
 It is small enough for a sheet of paper and large enough to show everything: two branch points on the straight strut, their modes, and
 an index that goes 0, 1, 2.
