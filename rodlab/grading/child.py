@@ -1,7 +1,7 @@
 """The process that answers: it takes a submission's source, then calls of its functions, and gives back plain values.
 
 It holds no reference, no check and no grade; whatever a submission does in here, it can only answer. One line of JSON a
-message. Started by `sandbox` from the text of `plain`, `guard` and this file, so that rodlab itself need not be there.
+message. Started by `process` from the text of `plain`, `locks`, `guard` and this file, so that rodlab itself need not be there.
 """
 
 import io
@@ -11,7 +11,8 @@ import sys
 from typing import Any
 
 from rodlab.grading.guard import guard, limit
-from rodlab.grading.plain import decode, encode
+from rodlab.grading.locks import lock
+from rodlab.grading.plain import decode, encode, named
 
 SHOWN = 2000  # characters of what was printed
 NAME = "answer.py"
@@ -46,12 +47,14 @@ def serve() -> None:
         __import__(name)
     for name in [name for name in sys.modules if name.split(".")[0] == "rodlab"]:
         del sys.modules[name]
+    locks = lock(setup["readable"], setup["hidden"], setup["own"])
     guard(setup["readable"], setup["hidden"], setup["own"], setup["files"])
+    reply({"started": True, "missing": missing, "locks": locks})  # what comes after it is an answer's, and may be anything
     source = setup["source"]
     names: dict[str, Any] = {"__name__": "answer", "__file__": NAME}
     try:
         exec(compile(source, NAME, "exec"), names)  # noqa: S102 what this process is for
-        reply({"ready": True, "missing": missing})
+        reply({"ready": True})
     except BaseException as error:  # noqa: BLE001 also SystemExit
         reply({"ready": False, **_said(error, source)})
     while line := asked.readline():
@@ -66,7 +69,7 @@ def serve() -> None:
                 answer |= _said(error, source)
             try:
                 reply(answer)
-            except (TypeError, ValueError, RecursionError):
+            except (TypeError, ValueError, RecursionError, MemoryError):
                 reply({"id": answer["id"], "value": {"other": "what cannot be written down"}})
             if "error" in answer:
                 break
@@ -75,17 +78,19 @@ def serve() -> None:
 
 def _said(error: BaseException, source: str) -> dict[str, Any]:
     """An exception as its name, its text and the line of the submission that it came from."""
-    line, trace = None, error.__traceback__
-    while trace is not None:
-        if trace.tb_frame.f_code.co_filename == NAME:
-            line = trace.tb_lineno
-        trace = trace.tb_next
-    if isinstance(error, SyntaxError) and error.filename == NAME:
-        line = error.lineno
+    said: dict[str, Any] = {"error": named(error), "message": ""}
     try:
-        text = str(error)[:300]
-    except BaseException:  # noqa: BLE001 its __str__ is the submission's too
-        text = ""
-    lines = source.splitlines()
-    shown = lines[line - 1].strip()[:120] if line is not None and 0 < line <= len(lines) else ""
-    return {"error": type(error).__name__[:60], "message": text, "line": line, "text": shown}
+        line, trace = None, error.__traceback__
+        while trace is not None:
+            if trace.tb_frame.f_code.co_filename == NAME:
+                line = trace.tb_lineno
+            trace = trace.tb_next
+        if isinstance(error, SyntaxError) and error.filename == NAME:
+            line = error.lineno
+        lines = source.splitlines()
+        if type(line) is int and 0 < line <= len(lines):
+            said |= {"line": line, "text": lines[line - 1].strip()[:120]}
+        said["message"] = str.__str__(str(error))[:300]
+    except BaseException:  # noqa: BLE001 its attributes and its __str__ are the submission's too
+        pass
+    return said

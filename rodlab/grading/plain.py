@@ -9,6 +9,8 @@ import sys
 from typing import Any
 
 DEEPEST = 12
+LARGEST = 10**6  # numbers of an array
+WIDEST = 1024  # bits of a whole number: those of a float
 
 
 class Code:
@@ -65,16 +67,25 @@ def encode(x: Any, depth: int = 0) -> Any:
     [1, 2.5, 'a', None, {'complex': [0.0, 1.0]}]
     >>> encode(object())
     {'other': 'object'}
+    >>> encode(10**5000)
+    {'other': 'a whole number of 16610 bits'}
     """
     try:
         return _encode(x, depth)
     except Exception:  # noqa: BLE001 a hostile object may raise anything
-        return {"other": type(x).__name__}
+        return {"other": named(x)}
+
+
+def named(x: Any) -> str:
+    """The name of a type, whatever its metaclass says that it is."""
+    return str.__str__(type.__dict__["__name__"].__get__(type(x)))[:60]
 
 
 def _encode(x: Any, depth: int) -> Any:
     if depth > DEEPEST:
         return {"other": "nested too deeply"}
+    if type(x) is int and x.bit_length() > WIDEST:
+        return {"other": f"a whole number of {x.bit_length()} bits"}
     if x is None or type(x) in (bool, int, float, str):
         return x
     np: Any = sys.modules.get("numpy")
@@ -85,7 +96,7 @@ def _encode(x: Any, depth: int) -> Any:
     if isinstance(x, str):  # a subclass gives its value as its base class has it
         return str.__str__(x)
     if isinstance(x, int):
-        return int.__int__(x)
+        return _encode(int.__int__(x), depth + 1)
     if isinstance(x, float):
         return float.__float__(x)
     if isinstance(x, complex):
@@ -102,6 +113,8 @@ def _encode(x: Any, depth: int) -> Any:
 
 
 def _array(np: Any, x: Any, depth: int) -> Any:
+    if max(x.size, *x.shape, 0) > LARGEST:
+        return {"other": f"an array of shape {x.shape}"}
     if x.dtype.kind == "c":
         return {
             "array": x.real.astype(float).ravel().tolist(),
@@ -124,29 +137,51 @@ def _known(x: Any, depth: int) -> Any:
         return encode(x.tolist(), depth + 1) if hasattr(x, "tolist") else {"expression": str(x)}
     if module.startswith("scipy.sparse"):
         return encode(x.toarray(), depth + 1)
-    return {"other": type(x).__name__}
+    return {"other": named(x)}
 
 
-def decode(x: Any) -> Any:
-    """The value again: arrays are numpy's, and what was no plain value is an `Other`."""
+def decode(x: Any, *, code: bool = True) -> Any:
+    """The value again: arrays are numpy's, and what was no plain value is an `Other`.
+
+    What an answer returned is decoded without `code`: its texts are never functions here. `ValueError` for what `encode` does not
+    write: lists without end, arrays of other shapes than their numbers fill.
+    """
+    return _decode(x, code, 0)
+
+
+def _decode(x: Any, code: bool, depth: int) -> Any:
+    if depth > 2 * DEEPEST:
+        raise ValueError("nested too deeply")
     if isinstance(x, list):
-        return [decode(y) for y in x]
+        return [_decode(y, code, depth + 1) for y in x]
+    if isinstance(x, int) and x.bit_length() > WIDEST:
+        return Other(f"a whole number of {x.bit_length()} bits")
     if not isinstance(x, dict):
         return x
     match x:
         case {"array": list(entries), "shape": list(shape)}:
-            import numpy as np
-
-            values: Any = np.array(entries, dtype=float)
-            if "imag" in x:
-                values = values + 1j * np.array(x["imag"], dtype=float)
-            return values.reshape(shape)
-        case {"complex": [re, im]}:
+            return _filled(entries, x.get("imag"), shape)
+        case {"complex": [int() | float() as re, int() | float() as im]}:
             return complex(re, im)
         case {"dict": list(pairs)}:
-            return {str(key): decode(y) for key, y in pairs}
+            return {str(key): _decode(y, code, depth + 1) for key, y in pairs if isinstance(key, str)}
         case {"expression": str(text)}:
             return Written(text)
-        case {"code": str(text)}:
+        case {"code": str(text)} if code:
             return Code(text)
-    return Other(str(x.get("other", "unknown"))[:80])
+        case {"other": str(text)}:
+            return Other(text[:80])
+    return Other("unknown")
+
+
+def _filled(entries: list[Any], imag: Any, shape: list[Any]) -> Any:
+    import numpy as np
+
+    if not all(type(n) is int and 0 <= n <= LARGEST for n in shape):
+        raise ValueError("no shape")
+    values: Any = np.array(entries, dtype=float)
+    if imag is not None:
+        values = values + 1j * np.array(imag, dtype=float)
+    if values.ndim != 1:
+        raise ValueError("no list of numbers")
+    return values.reshape(shape)
