@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 
 import rodlab as rl
 
+collect_ignore = ["hostile"]  # data for test_sandbox: nothing there may be imported
+
 hypothesis.settings.register_profile("rodlab", deadline=None, max_examples=60, derandomize=True)
 hypothesis.settings.load_profile("rodlab")
 

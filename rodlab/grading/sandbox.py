@@ -29,7 +29,10 @@ class Stopped(Exception):
 
 @dataclass(frozen=True)
 class Limits:
-    """What an answer may use: wall-clock seconds a question and in all, CPU seconds, bytes of memory, of a file, of a reply."""
+    """What an answer may use: wall-clock seconds a question and in all, CPU seconds, bytes of memory, of a file, of a reply.
+
+    `seconds` holds for loading it and, where limits are given to a `Sandbox`, for every question; else each has its own.
+    """
 
     seconds: float = 10.0
     total: float = 60.0
@@ -64,6 +67,7 @@ class Sandbox:
     ) -> None:
         self.source, self.limits, self.imports = source, limits or Limits(), tuple(imports)
         self.hidden = [str(path.resolve()) for path in (PACKAGE, *EXERCISES, *hidden) if path.exists()]
+        self.most = float("inf") if limits is None else limits.seconds
         self.until = time.monotonic() + self.limits.total
         self.dead: str | None = None  # why it cannot be asked again
         self.missing: tuple[str, ...] = ()
@@ -89,9 +93,9 @@ class Sandbox:
         if self.dead is not None:
             raise Stopped(self.dead, lost=True)
         process = self._started()
-        allowed = min(self.limits.seconds if seconds is None else min(seconds, self.limits.seconds), self._left())
+        allowed = self.limits.seconds if seconds is None else min(seconds, self.most)
         try:
-            return process.ask(name, calls, allowed)
+            return process.ask(name, calls, min(allowed, self._left()))
         except Gone as gone:
             self._close()
             raise Stopped(gone.sentence) from None
@@ -112,19 +116,22 @@ class Sandbox:
             process = self._process = Process(self._setup(), self.limits.reply)
             try:
                 held = process.read(STARTUP)  # before the submission runs, so that this one is ours
-                self.until += time.monotonic() - before
-                self.missing, self.locks = tuple(held["missing"]), tuple(held["locks"])
+            except Gone as gone:
+                raise self._lost(f"cannot be asked: its process does not start here, it {gone.sentence}") from None
+            self.until += time.monotonic() - before
+            self.missing, self.locks = tuple(held["missing"]), tuple(held["locks"])
+            try:
                 ready = process.read(min(self.limits.seconds, self._left()))
             except Gone as gone:
-                raise self._lost(gone.sentence) from None
+                raise self._lost(f"cannot be loaded: it {gone.sentence}") from None
             if ready.get("ready") is not True:
-                raise self._lost(raised(ready))
+                raise self._lost(f"cannot be loaded: it {raised(ready)}")
         return self._process
 
     def _lost(self, why: str) -> Stopped:
         self._close()
-        self.dead = f"cannot be loaded: it {why}"
-        return Stopped(self.dead, lost=True)
+        self.dead = why
+        return Stopped(why, lost=True)
 
     def _setup(self) -> dict[str, Any]:
         own = self.limits

