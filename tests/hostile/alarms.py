@@ -1,5 +1,5 @@
 # A timer whose handler raises in whatever runs
-# points: 4.5
+# points: at most 4.5
 import signal
 
 import numpy as np

