@@ -121,8 +121,8 @@ def _cell(kind: str, name: str, text: str, *marks: str) -> dict[str, Any]:
         cell |= {"execution_count": None, "outputs": []}
     if marks:
         cell["metadata"]["nbgrader"] = {
-            "grade": "grade" in marks, "solution": "solution" in marks, "locked": "grade" in marks, "task": False, "schema_version": 3,
-            "grade_id": name, **({"points": 1} if "grade" in marks else {}),
+            "grade": "grade" in marks, "solution": "solution" in marks, "locked": "grade" in marks, "task": False,
+            "schema_version": 3, "grade_id": name, **({"points": 1} if "grade" in marks else {}),
         }  # fmt: skip
     return cell
 
@@ -132,6 +132,13 @@ def make(path: Path, out: Path | None = None) -> list[Path]:
     found = taught(path)
     folder = (out or path.resolve().parents[1]) / found.name
     return [write_whole(folder / name, text) for name, text in folder_of(found).items()]
+
+
+def make_nbgrader(path: Path, out: Path | None = None) -> list[Path]:
+    """Write the teacher's notebook, with solutions and nbgrader's marks, to `out`/source/NAME/NAME.ipynb."""
+    found = taught(path)
+    folder = (out or Path()) / "source" / found.name
+    return [write_whole(folder / f"{found.name}.ipynb", notebook(found, found.reference, nbgrader=True))]
 
 
 if __name__ == "__main__":
