@@ -255,7 +255,7 @@ def check(chosen: argparse.Namespace) -> int:
     """rodlab check"""
     from pathlib import Path
 
-    from rodlab.lab.asked_to_check import check_class, check_one
+    from rodlab.lab.checking import check_class, check_one
     from rodlab.lab.store import as_json, framed
 
     start = time.perf_counter()
@@ -276,7 +276,7 @@ def check(chosen: argparse.Namespace) -> int:
 
 def exercises(chosen: argparse.Namespace) -> int:
     """rodlab exercises"""
-    from rodlab.lab.asked_to_check import listed, made
+    from rodlab.lab.checking import listed, made
     from rodlab.lab.store import as_json, framed
 
     answer, text = made(chosen) if getattr(chosen, "make", None) else listed(chosen)

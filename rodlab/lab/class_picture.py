@@ -29,6 +29,9 @@ def class_picture(records: Sequence[Mapping[str, Any]]) -> Figure:
     fig, (left, right) = figure(11.0, 1.6 + 0.26 * rows, ncols=2, width_ratios=(1.0, 1.0))
     _fates(left, records, exercises)
     _named(right, mistakes)
+    for axes in (left, right):
+        axes.set_ylim(rows - 0.5, -0.5)  # the first on top, bars of one width in both
+    fig.legend(*left.get_legend_handles_labels(), loc="outside lower left", ncols=len(STATES), frameon=False, fontsize=8)
     return fig
 
 
@@ -38,16 +41,8 @@ def _fates(axes: Axes, records: Sequence[Mapping[str, Any]], exercises: Sequence
         counts = [sum(r["exercise"] == e and _state(r) == state for r in records) for e in exercises]
         axes.barh(exercises, counts, left=start, color=grey, hatch=hatch, edgecolor="0.2", linewidth=0.6, height=0.72, label=name)
         start = [a + b for a, b in zip(start, counts, strict=True)]
-    axes.invert_yaxis()
     axes.set_xlabel("submissions")
     axes.set_title("What became of each exercise", loc="left", fontsize=10)
-    axes.legend(
-        loc="upper center",
-        bbox_to_anchor=(0.4, -0.55 / (0.3 + 0.26 * max(len(exercises), 4))),
-        ncols=3,
-        frameon=False,
-        fontsize=8,
-    )
     _plain(axes)
 
 
@@ -60,7 +55,6 @@ def _named(axes: Axes, mistakes: Sequence[tuple[str, int]]) -> None:
     names = [name if len(name) <= LONGEST else name[: LONGEST - 1] + "…" for name, _ in mistakes]
     axes.barh(range(len(names)), [count for _, count in mistakes], color="0.55", edgecolor="0.2", linewidth=0.6, height=0.72)
     axes.set_yticks(range(len(names)), names)
-    axes.invert_yaxis()
     axes.set_xlabel("submissions")
     _plain(axes)
 
@@ -68,8 +62,12 @@ def _named(axes: Axes, mistakes: Sequence[tuple[str, int]]) -> None:
 def _mistakes(records: Sequence[Mapping[str, Any]]) -> list[tuple[str, int]]:
     """Mistakes with their exercise in front."""
     return frequent(
-        [{"mistakes": "; ".join(f"{r['exercise']}, {m}" for m in filter(None, r["mistakes"].split("; ")))} for r in records]
+        [{"mistakes": "; ".join(_placed(r["exercise"], m) for m in filter(None, r["mistakes"].split("; ")))} for r in records]
     )
+
+
+def _placed(exercise: str, mistake: str) -> str:
+    return mistake if mistake.startswith(f"{exercise}: ") else f"{exercise}, {mistake}"
 
 
 def _state(record: Mapping[str, Any]) -> str:
@@ -80,6 +78,7 @@ def _plain(axes: Axes) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.tick_params(axis="y", length=0, labelsize=8)
     axes.tick_params(axis="x", labelsize=8)
+    axes.margins(x=0.02)
     axes.set_xlim(left=0)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)

@@ -149,7 +149,7 @@ def _record(submission: Submission, course: Path | None, seed: int, limits: Limi
         return _row(submission, 0.0, asked.points, "not judged", f"the check failed: {type(why).__name__}: {why}")
     said = of_report(report)
     states = {item.status for item in report.items}
-    worst = next((s for s in ("lost", "wrong", "mistake", "unanswered") if s in states), "right")
+    worst = next((s for s in ("lost", "mistake", "wrong", "unanswered") if s in states), "right")
     message = next((item.sentence for item in report.items if item.status == worst and worst != "right"), "")
     return {**_row(submission, report.score, report.max_score, worst, message), **said, "mistakes": "; ".join(report.mistakes)}
 

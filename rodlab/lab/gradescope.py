@@ -21,6 +21,19 @@ def results(report: Report | Mapping[str, Any], seconds: float | None = None) ->
     return json.dumps(content if seconds is None else {**content, "execution_time": round(seconds, 3)}, indent=1) + "\n"
 
 
+def unreadable(sentence: str, points: float) -> str:
+    """The same for a submission that could not be read."""
+    test = {
+        "name": "submission",
+        "score": 0.0,
+        "max_score": points,
+        "status": "failed",
+        "output": sentence,
+        "visibility": "visible",
+    }
+    return json.dumps({"score": 0.0, "output": sentence, "stdout_visibility": "hidden", "tests": [test]}, indent=1) + "\n"
+
+
 def _test(item: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "name": f"{item['question']}: {item['says']}",

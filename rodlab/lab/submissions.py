@@ -80,12 +80,13 @@ def named(path: Path, known: Iterable[str]) -> str | None:
 
 
 def answers_in(path: Path) -> list[Path]:
-    """The files of one submission: a file itself, or a folder's answer.py and answer.ipynb."""
+    """The files of one submission: a file itself, or a folder's answer.py and answer.ipynb, or its only file of that kind."""
     if path.is_dir():
-        found = [path / f"answer{suffix}" for suffix in SUFFIXES if (path / f"answer{suffix}").is_file()]
-        if not found:
-            raise ValueError(f"{path} must hold an answer.py or an answer.ipynb; it holds neither")
-        return found
+        there = sorted(file for file in path.iterdir() if file.suffix in SUFFIXES and file.name != "check.py")
+        found = [file for file in there if file.stem == "answer"] or there
+        if len(found) not in (1, 2) or (len(found) == 2 and found[0].stem != found[1].stem):
+            raise ValueError(f"{path} must hold an answer.py or an answer.ipynb; it holds {len(there)} such files of other names")
+        return found[::-1]  # the script first
     if path.suffix not in SUFFIXES:
         raise ValueError(f"a submission must be a .py or .ipynb file, or the folder of one; it is {path}")
     return [path]

@@ -10,7 +10,7 @@ from typing import Any
 from rodlab.files import write_whole
 from rodlab.lab.classroom import Watch, grade_class, summary
 from rodlab.lab.course import check_paths, exercise, home, names
-from rodlab.lab.gradescope import of_report, results
+from rodlab.lab.gradescope import of_report, results, unreadable
 from rodlab.lab.submissions import answers_in, named
 from rodlab.lab.table import table
 
@@ -34,11 +34,17 @@ def check_one(chosen: argparse.Namespace, what: Path) -> Answered:
         )
     seed = secrets.randbelow(2**31) if chosen.gradescope and chosen.seed is None else chosen.seed
     start = time.perf_counter()
-    report = check_paths(exercise(name, course), paths, seed=seed)
+    asked = exercise(name, course)
+    try:
+        report = check_paths(asked, paths, seed=seed)
+    except ValueError as why:  # who handed it in waits for a word
+        if chosen.gradescope:
+            write_whole(Path(chosen.gradescope), unreadable(str(why), asked.points))
+        raise
     if chosen.gradescope:
         write_whole(Path(chosen.gradescope), results(report, time.perf_counter() - start))
     written = [chosen.gradescope] if chosen.gradescope else []
-    return {**of_report(report), "files": written}, str(report), 0 if report.passed else 1
+    return {**of_report(report), "files": written}, f"{report}\n  ({report.protections})", 0 if report.passed else 1
 
 
 def check_class(chosen: argparse.Namespace, watch: Watch) -> Answered:
