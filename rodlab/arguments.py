@@ -183,9 +183,8 @@ def _exercise_verbs(known: Any, verbs: Mapping[str, Callable[..., int]]) -> None
     verb.add_argument("--exercises", metavar="DIR", help="a folder of exercises of one's own")
     verb.add_argument("--make", nargs="+", metavar="FILE", help="teachers' files, each to be made a folder")
     verb.add_argument("--out", metavar="DIR", help="where to (default: beside the folder of the teachers' files)")
-    verb.add_argument(
-        "--nbgrader", action="store_true", help="make notebooks with solutions, as nbgrader and otter take them, instead"
-    )
+    what = "make notebooks with solutions instead, as nbgrader or otter assign take them"
+    verb.add_argument("--notebooks", choices=["nbgrader", "otter"], help=what)
 
 
 def jobs_of(chosen: argparse.Namespace) -> int:

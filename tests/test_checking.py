@@ -21,7 +21,7 @@ from rodlab.lab.class_picture import class_picture
 from rodlab.lab.classroom import grade_class
 from rodlab.lab.course import exercise
 from rodlab.lab.submissions import read, submissions
-from rodlab.lab.taught import make, make_nbgrader, taught
+from rodlab.lab.taught import make, taught
 
 TWO = taught(ROOT / "exercises" / "teacher" / "two-joints.py")
 PAIR = ("gradient", "two-joints")
@@ -400,13 +400,22 @@ def test_a_teacher_adds_an_exercise_in_one_file(tmp_path, capsys):
     assert "twice  [mine]  Twice" in capsys.readouterr().out
 
 
-def test_nbgrader_gets_notebooks_with_its_marks(tmp_path):
-    (path,) = make_nbgrader(ROOT / "exercises" / "teacher" / "two-joints.py", tmp_path)
-    assert path == tmp_path / "source" / "two-joints" / "two-joints.ipynb"
-    cells = json.loads(path.read_text())["cells"]
-    marks = [cell["metadata"].get("nbgrader", {}) for cell in cells]
+def test_nbgrader_and_otter_get_notebooks_with_their_marks(tmp_path, capsys):
+    source = str(ROOT / "exercises" / "teacher" / "two-joints.py")
+    for kind in ("nbgrader", "otter"):
+        assert main(["exercises", "--make", source, "--notebooks", kind, "--out", str(tmp_path / kind)]) == 0
+    capsys.readouterr()
+    nbgrader, otter = (
+        json.loads((tmp_path / kind / "source" / "two-joints" / "two-joints.ipynb").read_text())["cells"]
+        for kind in ("nbgrader", "otter")
+    )
+    marks = [cell["metadata"].get("nbgrader", {}) for cell in nbgrader]
     assert [(m.get("solution"), m.get("grade")) for m in marks] == [(None, None), (True, False), (False, True)]
-    assert "### BEGIN SOLUTION" in "".join(cells[1]["source"])
+    assert "    ### BEGIN SOLUTION\n" in nbgrader[1]["source"]
+    assert "    # BEGIN SOLUTION\n" in otter[4]["source"]  # what `otter assign` looks for
+    assert [cell["source"][0].split("\n")[0] for cell in otter if cell["cell_type"] == "raw"] == [
+        "# ASSIGNMENT CONFIG", "# BEGIN QUESTION", "# BEGIN SOLUTION", "# END SOLUTION", "# BEGIN TESTS", "# END TESTS", "# END QUESTION",
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(

@@ -80,14 +80,14 @@ def listed(chosen: argparse.Namespace) -> tuple[dict[str, Any], str]:
 
 def made(chosen: argparse.Namespace) -> tuple[dict[str, Any], str]:
     """Folders made from teachers' files."""
-    from rodlab.lab.taught import make, make_nbgrader
+    from rodlab.lab.taught import make, make_graded
 
     out = Path(chosen.out) if chosen.out else None
     written: list[Path] = []
     for given in map(Path, chosen.make):
         if not given.is_file():
             raise ValueError(f"--make must name teachers' files; there is no {given}")
-        written += make_nbgrader(given, out) if chosen.nbgrader else make(given, out)
+        written += make_graded(given, chosen.notebooks, out) if chosen.notebooks else make(given, out)
     return {"files": [str(path) for path in written]}, "\n".join(map(str, written))
 
 
