@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from rodlab.analysis.unfolding import branch_points, folds
     from rodlab.analysis.vary import vary
     from rodlab.lab.census import census
+    from rodlab.lab.course import check, hint
     from rodlab.lab.equilibria import Equilibria, all_equilibria
     from rodlab.lab.saved import read
     from rodlab.lab.studies.study import Study, study
@@ -84,6 +85,7 @@ _HOME = {
     "buckling": "mechanics.buckling",
     "buckling_loads": "mechanics.buckling",
     "census": "lab.census",
+    "check": "lab.course",
     "conjugate_points": "mechanics.conjugate",
     "deflation": "analysis.deflation",
     "diagram": "analysis.diagram",
@@ -98,6 +100,7 @@ _HOME = {
     "folds": "analysis.unfolding",
     "follow": "analysis.follow",
     "foundation": "mechanics.terms",
+    "hint": "lab.course",
     "imperfection": "analysis.imperfection",
     "indices": "mechanics.indices",
     "invariants": "mechanics.invariants",
@@ -120,9 +123,9 @@ __all__ = [  # the same names; a test compares
     "Bordered", "Branch", "Buckling", "Diagram", "Distinguished", "Elastica", "Equations", "Equilibria", "Event",
     "Expansion", "Imperfection", "Indices", "Invariants", "Koiter", "Newton", "NoConvergence", "Point", "Rod", "Shape",
     "ShearableRod", "Strut", "Study", "Term", "Tridiagonal", "all_equilibria", "branch", "branch_point", "branch_points",
-    "buckling", "buckling_loads", "census", "conjugate_points", "deflation", "diagram", "distinguished", "elastica",
+    "buckling", "buckling_loads", "census", "check", "conjugate_points", "deflation", "diagram", "distinguished", "elastica",
     "end_force", "end_torque", "equilibrium", "expansion", "factor", "fold", "folds", "follow", "foundation",
-    "imperfection", "indices", "invariants", "koiter", "potential", "read", "self_weight", "shear_loads", "shearable",
+    "hint", "imperfection", "indices", "invariants", "koiter", "potential", "read", "self_weight", "shear_loads", "shearable",
     "shearable_principle", "steepest_descent", "study", "switch", "term", "uniqueness", "vary",
 ]  # fmt: skip
 

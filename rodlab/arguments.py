@@ -77,6 +77,7 @@ def parser(verbs: Mapping[str, Callable[..., int]]) -> argparse.ArgumentParser:
     verb.add_argument(
         "--account", action="store_true", help="say instead what it costs, and what it is spared: imports, kernels, seconds"
     )
+    _exercise_verbs(known, verbs)
     return parser
 
 
@@ -160,6 +161,30 @@ def _verb(known: Any, run: Any, what: str) -> argparse.ArgumentParser:
     parser.add_argument("--json", action="store_true", help="one JSON object on stdout, numbers at full precision")
     parser.set_defaults(run=run)
     return parser
+
+
+def _exercise_verbs(known: Any, verbs: Mapping[str, Callable[..., int]]) -> None:
+    verb = _verb(known, verbs["check"], "check an answer to an exercise, or those of a class")
+    what = "an exercise's folder, or a .py or .ipynb file (default: list the exercises)"
+    verb.add_argument("what", nargs="?", metavar="ANSWER", help=what)
+    verb.add_argument(
+        "--exercise", metavar="NAME", help="which exercise it answers (default: as its first line or its folder says)"
+    )
+    verb.add_argument("--exercises", metavar="DIR", help="a folder of exercises of one's own")
+    verb.add_argument("--seed", type=int, help="check also on fresh parameters, each part for half of the points")
+    verb.add_argument(
+        "--gradescope", metavar="FILE", help="write Gradescope's results.json, with hidden tests on fresh parameters"
+    )
+    verb.add_argument("--class", dest="folder", metavar="DIR", help="grade every submission in a folder of students")
+    verb.add_argument("--out", metavar="DIR", help="of a class: tables, Gradescope's files, picture (default: rodlab-class)")
+    verb.add_argument("--jobs", type=int, help="of a class: submissions at a time (default: all cores)")
+
+    verb = _verb(known, verbs["exercises"], "the exercises of the course; for teachers: make their folders from one file each")
+    verb.add_argument("--exercises", metavar="DIR", help="a folder of exercises of one's own")
+    verb.add_argument("--make", nargs="+", metavar="FILE", help="teachers' files, each to be made a folder")
+    verb.add_argument("--out", metavar="DIR", help="where to (default: beside the folder of the teachers' files)")
+    what = "make notebooks with solutions instead, as nbgrader or otter assign take them"
+    verb.add_argument("--notebooks", choices=["nbgrader", "otter"], help=what)
 
 
 def jobs_of(chosen: argparse.Namespace) -> int:

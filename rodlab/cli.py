@@ -30,7 +30,7 @@ Five commands to try:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
-    verbs = (tour, buckling, follow, diagram, equilibria, study, scenes, run)
+    verbs = (tour, buckling, follow, diagram, equilibria, study, scenes, run, check, exercises)
     chosen = parser({verb.__name__: verb for verb in verbs}).parse_args(arguments)
     try:
         code = welcome(chosen) if chosen.verb is None else int(chosen.run(chosen))
@@ -249,6 +249,39 @@ def run(chosen: argparse.Namespace) -> int:
             "run", "a branch could not be followed to its end, or an answer is wrong or missing: the tables say which", 3
         )
     )
+
+
+def check(chosen: argparse.Namespace) -> int:
+    """rodlab check"""
+    from pathlib import Path
+
+    from rodlab.lab.checking import check_class, check_one
+    from rodlab.lab.store import as_json, framed
+
+    start = time.perf_counter()
+    if chosen.folder is not None:
+        bar, watch = _counted("submissions")
+        try:
+            answer, text, code = check_class(chosen, watch)
+        finally:
+            bar.close()
+    elif chosen.what is None:
+        return exercises(chosen)
+    else:
+        answer, text, code = check_one(chosen, Path(chosen.what))
+    seconds = time.perf_counter() - start
+    print(as_json(framed("check", seconds, answer)) if chosen.json else f"{text}\nin {seconds:.1f} s")
+    return code
+
+
+def exercises(chosen: argparse.Namespace) -> int:
+    """rodlab exercises"""
+    from rodlab.lab.checking import listed, made
+    from rodlab.lab.store import as_json, framed
+
+    answer, text = made(chosen) if getattr(chosen, "make", None) else listed(chosen)
+    print(as_json(framed("exercises", 0.0, answer)) if chosen.json else text)
+    return 0
 
 
 def _as_many_as(each: Iterable[tuple[float, float]], *, all_of_them: bool) -> Iterator[tuple[float, float]]:

@@ -1,3 +1,3 @@
 """The version, known to the package face and to every file that is written."""
 
-__version__ = "0.6.0"
+__version__ = "0.7.0"

@@ -310,7 +310,7 @@ def test_a_journal_that_breaks_is_said(tmp_path):
     with sqlite3.connect(tmp_path / "cells.sqlite") as foreign:
         foreign.execute("CREATE TABLE cells (a, b)")
     foreign.close()
-    with pytest.raises(ValueError, match=r"cells\.sqlite is not the journal of a study.*remove it to begin anew"):
+    with pytest.raises(ValueError, match=r"cells\.sqlite is not a journal of rodlab's.*remove it to begin anew"):
         study("convergence", ask=SMALL, out=tmp_path)
 
 
@@ -386,7 +386,7 @@ def test_workers_leave_when_their_parent_is_killed(tmp_path):
 
 def test_a_journal_that_is_none_is_refused_and_left_alone(tmp_path):
     (tmp_path / "cells.sqlite").write_bytes(b"something else, longer than a header of a database" * 100)
-    with pytest.raises(ValueError, match=r"cells\.sqlite is not the journal of a study"):
+    with pytest.raises(ValueError, match=r"cells\.sqlite is not a journal of rodlab's"):
         study("convergence", ask=SMALL, out=tmp_path)
     assert (tmp_path / "cells.sqlite").read_bytes().startswith(b"something else")
     (tmp_path / "file").write_text("")

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from rodlab.grading.values import Kind, Wrong
+from rodlab.grading.values import Kind
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Property:
         with np.errstate(all="ignore"):
             try:
                 return float(self.measure(calls))
-            except (ArithmeticError, ValueError, TypeError, IndexError, np.linalg.LinAlgError):
+            except Exception:  # noqa: BLE001 the values may be anything
                 return float("nan")
 
 
@@ -66,7 +66,7 @@ class Mistake:
                 if self.when is not None:
                     return bool(self.when(given))
                 return all(self._near(kind, arguments, value) for arguments, value in given)
-            except (ArithmeticError, ValueError, TypeError, IndexError, AttributeError, Wrong, np.linalg.LinAlgError):
+            except Exception:  # noqa: BLE001 the values may be anything
                 return False
 
     def _near(self, kind: Kind, arguments: tuple[Any, ...], value: Any) -> bool:

@@ -96,23 +96,30 @@ class Report:
 
     def __str__(self) -> str:
         lines = [f"{self.exercise}: {self.score:g} of {self.max_score:g} points ({self.percent:.0f} %)"]
-        for item in self.items:
-            mark = "ok  " if item.passed else "--  "
-            part = " (fresh parameters)" if item.hidden else ""
-            lines.append(f"  {mark}{item.score:g}/{item.max_score:g}  {item.question} {item.message}{part}")
+        for score, most, text in self._lines():
+            lines.append(f"  {'ok' if score == most else '--'}  {score:g}/{most:g}  {text}")
         for mistake, hint in dict.fromkeys((item.mistake, item.hint) for item in self.items if item.hint):
             lines.append(f"  hint ({mistake}): {hint}" if mistake else f"  hint: {hint}")
         return "\n".join(lines)
 
     __repr__ = __str__
 
+    def _lines(self) -> list[tuple[float, float, str]]:
+        """Score, points and text; what failed as one whole in one line."""
+        lines: dict[str, tuple[float, float]] = {}
+        for item in self.items:
+            text = f"{item.question} {item.message}{' (fresh parameters)' if item.hidden else ''}"
+            score, most = lines.get(text, (0.0, 0.0))
+            lines[text] = (score + item.score, most + item.max_score)
+        return [(score, most, text) for text, (score, most) in lines.items()]
+
     def _repr_html_(self) -> str:
         from html import escape
 
         rows = "".join(
-            f"<tr><td>{'&#10003;' if i.passed else '&#10007;'}</td><td>{i.score:g}/{i.max_score:g}</td>"
-            f"<td style='text-align:left'><code>{escape(i.question)}</code> {escape(i.message)}</td></tr>"
-            for i in self.items
+            f"<tr><td>{'&#10003;' if score == most else '&#10007;'}</td><td>{score:g}/{most:g}</td>"
+            f"<td style='text-align:left'>{escape(text)}</td></tr>"
+            for score, most, text in self._lines()
         )
         hints = "".join(
             f"<p><b>{escape(mistake)}</b>: {escape(hint)}</p>" if mistake else f"<p>{escape(hint)}</p>"
@@ -206,7 +213,7 @@ class _Failed:
 
 
 def _not(says: str, measured: float, allowed: float) -> str:
-    return f'does not pass "{says}": {_number(measured)} measured, {allowed:.1e} allowed'
+    return f'fails "{says}": {_number(measured)} measured, {allowed:.1e} allowed'
 
 
 def _number(x: float) -> str:

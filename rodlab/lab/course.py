@@ -1,14 +1,11 @@
-"""The course's exercises: where they are, how an answer to one is read, and the check and the hint of a notebook.
+"""The course's exercises: where they are, and the check and the hint of a notebook.
 
 An exercise is a folder with a `check.py`; its name is the folder's. The checker is always the course's own, never one that
 lies beside an answer.
 """
 
-import ast
 import importlib.util
-import json
-import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -19,10 +16,9 @@ from rodlab.grading.directly import Directly
 from rodlab.grading.exercise import Exercise
 from rodlab.grading.grade import Report, grade
 from rodlab.grading.sandbox import Limits, Sandbox
+from rodlab.lab.submissions import answers_in, read
 
 PACKAGE = Path(__file__).resolve().parents[1]
-HEADER = re.compile(r"^#\s*rodlab exercise:\s*([\w-]+)\s*$", re.MULTILINE)
-LONGEST = 2**20  # bytes of a submission
 
 
 def home() -> Path:
@@ -82,7 +78,7 @@ def check(name: str, answer: Any = None, *, seed: int | None = None) -> Report:
     """
     asked = exercise(name)
     if isinstance(answer, str | Path):
-        return check_source(asked, read(Path(answer)), seed=seed)
+        return check_paths(asked, answers_in(Path(answer)), seed=seed)
     return grade(asked, Directly(_functions(asked, answer)), seed=seed)
 
 
@@ -90,6 +86,12 @@ def check_source(asked: Exercise, source: str, *, seed: int | None = None, limit
     """Judge the text of a submission, in a process of its own."""
     with Sandbox(source, limits, asked.imports) as answer:
         return grade(asked, answer, seed=seed)
+
+
+def check_paths(asked: Exercise, paths: Sequence[Path], *, seed: int | None = None, limits: Limits | None = None) -> Report:
+    """Judge the files of one submission; of a script and a notebook the better one counts."""
+    reports = [check_source(asked, read(path), seed=seed, limits=limits) for path in paths]
+    return max(reports, key=lambda report: report.score)
 
 
 def _functions(asked: Exercise, answer: Any) -> Mapping[str, Any]:
@@ -131,52 +133,3 @@ def hint(name: str, question: str | None = None) -> Hint:
     if question is not None and question not in known:
         raise ValueError(f"question must be one of {', '.join(known)}; it is {question!r}")
     return Hint("\n".join(f"{q.name}: {q.hint}" for q in asked.questions if question in (None, q.name)))
-
-
-def read(path: Path) -> str:
-    """The Python of a submission: a .py file, or the code cells of a notebook without its magic lines."""
-    try:
-        if path.stat().st_size > LONGEST:
-            raise ValueError(f"{path} must be a submission of at most {LONGEST} bytes; it has {path.stat().st_size}")
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ValueError(f"{path} cannot be read: {error.strerror or error}") from None
-    except UnicodeDecodeError:
-        raise ValueError(f"{path} must be a text in UTF-8; it is not") from None
-    return _cells(path, text) if path.suffix == ".ipynb" else text
-
-
-def _cells(path: Path, text: str) -> str:
-    try:
-        cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
-        sources = ["".join(cell["source"]) for cell in cells]
-    except (ValueError, KeyError, TypeError, RecursionError):
-        raise ValueError(f"{path} must be a notebook; it cannot be read as one") from None
-    kept = ["\n".join(line for line in text.splitlines() if not line.lstrip().startswith(("%", "!"))) for text in sources]
-    return "\n\n".join(text for text in kept if not _only_checks(text))
-
-
-def _only_checks(text: str) -> bool:
-    """True for a cell that imports rodlab or calls it, which is not part of an answer."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return False
-    return bool(tree.body) and all(_of_rodlab(node) for node in tree.body)
-
-
-def _of_rodlab(node: ast.stmt) -> bool:
-    match node:
-        case ast.Import(names=[ast.alias(name="rodlab")]):
-            return True
-        case ast.Expr(value=ast.Call(func=ast.Attribute(value=ast.Name(id="rl"), attr="check" | "hint"))):
-            return True
-    return False
-
-
-def named(path: Path, source: str) -> str | None:
-    """The exercise that a submission says it is for, or that its file or folder is named after; None if neither."""
-    if found := HEADER.search(source):
-        return found[1]
-    known = set(names())
-    return next((name for name in (path.stem, path.parent.name) if name in known), None)

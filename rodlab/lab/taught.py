@@ -89,40 +89,50 @@ def folder_of(found: Taught) -> dict[str, str]:
     }
 
 
-def notebook(found: Taught, answer: str, *, nbgrader: bool = False) -> str:
-    """A notebook of the statement, an answer and its check; for nbgrader with its marks on the cells."""
+def notebook(found: Taught, answer: str, kind: str = "") -> str:
+    """A notebook of the statement, an answer and its check; for "nbgrader" or "otter" with what these look for."""
+    code = f"# rodlab exercise: {found.name}\n{answer}"
     check = f'import rodlab as rl\n\nrl.check("{found.name}", globals())'
     graded = f'import rodlab as rl\n\nassert rl.check("{found.name}", globals()).passed'
-    cells = [
-        _cell("markdown", f"{found.name}-statement", found.statement),
-        _cell(
-            "code", f"{found.name}-answer", f"# rodlab exercise: {found.name}\n{answer}", *((("solution",)) if nbgrader else ())
-        ),
-        _cell("code", f"{found.name}-check", graded if nbgrader else check, *(("grade",) if nbgrader else ())),
-    ]
+    statement = ("markdown", "statement", found.statement)
+    match kind:
+        case "nbgrader":
+            cells = [statement, ("code", "answer", code, "solution"), ("code", "check", graded, "grade")]
+        case "otter":
+            code = code.replace("### BEGIN SOLUTION", "# BEGIN SOLUTION").replace("### END SOLUTION", "# END SOLUTION")
+            begin = f"# BEGIN QUESTION\nname: {found.name}\npoints: 1"
+            marks = iter(
+                (
+                    "# ASSIGNMENT CONFIG\nexport_cell: false",
+                    begin,
+                    "# BEGIN SOLUTION",
+                    "# END SOLUTION",
+                    "# BEGIN TESTS",
+                    "# END TESTS",
+                )
+            )
+            raw = [("raw", f"mark-{number}", text) for number, text in enumerate([*marks, "# END QUESTION"])]
+            answer_cell, test_cell = ("code", "answer", code), ("code", "check", graded)
+            cells = [raw[0], raw[1], statement, raw[2], answer_cell, raw[3], raw[4], test_cell, raw[5], raw[6]]
+        case _:
+            cells = [statement, ("code", "answer", code), ("code", "check", check)]
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
-    content = {
-        "cells": cells,
-        "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
-        "nbformat": 4,
-        "nbformat_minor": 5,
-    }
+    metadata = {"kernelspec": kernel, "language_info": {"name": "python"}}
+    content = {"cells": [_cell(found.name, *cell) for cell in cells], "metadata": metadata, "nbformat": 4, "nbformat_minor": 5}
     return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
 
 
-def _cell(kind: str, name: str, text: str, *marks: str) -> dict[str, Any]:
-    cell: dict[str, Any] = {
-        "cell_type": kind,
-        "id": name[-64:],
-        "metadata": {},
-        "source": text.rstrip("\n").splitlines(keepends=True),
-    }
+def _cell(exercise: str, kind: str, name: str, text: str, mark: str = "") -> dict[str, Any]:
+    """A cell; a mark is nbgrader's."""
+    lines = text.rstrip("\n").splitlines(keepends=True)
+    cell: dict[str, Any] = {"cell_type": kind, "id": f"{exercise}-{name}"[-64:], "metadata": {}, "source": lines}
     if kind == "code":
         cell |= {"execution_count": None, "outputs": []}
-    if marks:
+    if mark:
+        graded = mark == "grade"
         cell["metadata"]["nbgrader"] = {
-            "grade": "grade" in marks, "solution": "solution" in marks, "locked": "grade" in marks, "task": False, "schema_version": 3,
-            "grade_id": name, **({"points": 1} if "grade" in marks else {}),
+            "grade": graded, "solution": not graded, "locked": graded, "task": False, "schema_version": 3,
+            "grade_id": f"{exercise}-{name}", **({"points": 1} if graded else {}),
         }  # fmt: skip
     return cell
 
@@ -132,6 +142,13 @@ def make(path: Path, out: Path | None = None) -> list[Path]:
     found = taught(path)
     folder = (out or path.resolve().parents[1]) / found.name
     return [write_whole(folder / name, text) for name, text in folder_of(found).items()]
+
+
+def make_graded(path: Path, kind: str, out: Path | None = None) -> list[Path]:
+    """Write the teacher's notebook, with solutions and the marks of "nbgrader" or "otter", to `out`/source/NAME/NAME.ipynb."""
+    found = taught(path)
+    folder = (out or Path()) / "source" / found.name
+    return [write_whole(folder / f"{found.name}.ipynb", notebook(found, found.reference, kind))]
 
 
 if __name__ == "__main__":

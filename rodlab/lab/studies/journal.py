@@ -10,14 +10,20 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
-
-from rodlab.lab.studies.cells import Cell
+from typing import Any, Protocol
 
 TABLES = """
 CREATE TABLE IF NOT EXISTS runs (id INTEGER PRIMARY KEY, provenance TEXT NOT NULL);
 CREATE TABLE IF NOT EXISTS cells (fingerprint TEXT, key TEXT, run INTEGER, answer TEXT NOT NULL, PRIMARY KEY (fingerprint, key));
 """
+
+
+class Kept(Protocol):
+    """What has an answer that can be kept: a cell, a submission."""
+
+    @property
+    def key(self) -> str:
+        """Equal for what has equal answers."""
 
 
 class Journal:
@@ -42,7 +48,7 @@ class Journal:
         try:
             yield
         except sqlite3.Error as error:
-            said = f"{self.path} is not the journal of a study, or cannot be written: {error}"
+            said = f"{self.path} is not a journal of rodlab's, or cannot be written: {error}"
             raise ValueError(f"{said}; remove it to begin anew, or name another folder") from None
 
     def __enter__(self) -> "Journal":
@@ -51,7 +57,7 @@ class Journal:
     def __exit__(self, *_: object) -> None:
         self.file.close()
 
-    def known(self, cells: Sequence[Cell]) -> dict[int, dict[str, Any]]:
+    def known(self, cells: Sequence[Kept]) -> dict[int, dict[str, Any]]:
         """The answers that are there already, by their place in the list."""
         with self._said():
             own = self.file.execute("SELECT key, answer FROM cells WHERE fingerprint = ?", (self.fingerprint,))
@@ -59,13 +65,13 @@ class Journal:
         found = {i: _read(there[cell.key]) for i, cell in enumerate(cells) if cell.key in there}
         return {i: answer for i, answer in found.items() if answer is not None}
 
-    def keep(self, cell: Cell, answer: Mapping[str, Any]) -> None:
+    def keep(self, cell: Kept, answer: Mapping[str, Any]) -> None:
         """Write one answer, whole."""
         row = (self.fingerprint, cell.key, self.run, json.dumps(answer))
         with self._said(), self.file:
             self.file.execute("INSERT OR REPLACE INTO cells VALUES (?, ?, ?, ?)", row)
 
-    def runs(self, cells: Sequence[Cell]) -> list[dict[str, Any]]:
+    def runs(self, cells: Sequence[Kept]) -> list[dict[str, Any]]:
         """Where and when these cells were computed, each run with their number."""
         with self._said():
             rows = self.file.execute("SELECT key, run FROM cells WHERE fingerprint = ?", (self.fingerprint,)).fetchall()
