@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,8 @@ from rodlab.lab.taught import taught
 
 ROOT = Path(__file__).parents[1]
 HOSTILE = sorted((ROOT / "tests" / "hostile").glob("*.py"))
-SMALL = Limits(seconds=0.4, total=1.2, cpu=5, memory=1024 * 2**20)
+SMALL = Limits(seconds=5.0, total=20.0, cpu=5, memory=1024 * 2**20)
+HASTE = replace(SMALL, seconds=0.4, total=1.2)  # for those that would use up any time
 LINUX = sys.platform == "linux"
 pytestmark = pytest.mark.skipif(not LINUX, reason="what is left behind is looked for in /proc")
 
@@ -70,9 +72,13 @@ def none_left(folder):
 
 def state():
     """What a submission might have changed: when, or whether it is there."""
-    paths = [path for name in ("exercises", "rodlab/grading") for path in (ROOT / name).rglob("*") if "__pycache__" not in path.parts]
+    paths = [
+        path for name in ("exercises", "rodlab/grading") for path in (ROOT / name).rglob("*") if "__pycache__" not in path.parts
+    ]
     files = {path: path.stat().st_mtime_ns for path in [*paths, *ROOT.iterdir()] if path.is_file()}
-    return files, [folder for folder in ("/tmp", "/var/tmp", "/dev/shm", "/", "/root") if os.path.exists(f"{folder}/rodlab-escaped")]
+    return files, [
+        folder for folder in ("/tmp", "/var/tmp", "/dev/shm", "/", "/root") if os.path.exists(f"{folder}/rodlab-escaped")
+    ]
 
 
 def plain(sentence):
@@ -83,11 +89,13 @@ def plain(sentence):
 def test_a_hostile_submission_has_only_the_points_it_earned(path, walled, tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     text = path.read_text(encoding="utf-8")
-    earned = text.splitlines()[1].removeprefix("# points: ")
+    earned, *marks = text.splitlines()[1].removeprefix("# points: ").split(", ")
+    if "by its values alone" in marks and walled == "bubblewrap":
+        pytest.skip("it asks the system for nothing that walls would refuse")
     before, start = state(), time.monotonic()
-    report = course.check_source(course.exercise("two-joints"), text.replace("@ROOT@", str(ROOT)), seed=5, limits=SMALL)
+    report = course.check_source(course.exercise("two-joints"), text.replace("@ROOT@", str(ROOT)), seed=5, limits=HASTE if "in haste" in marks else SMALL)
     took = time.monotonic() - start
-    assert took < 8.0
+    assert took < 15.0
     most = float(earned.removeprefix("at most "))
     assert report.score <= most if "most" in earned else report.score == most, str(report)
     for item in report.items:
@@ -134,7 +142,8 @@ SENTENCES = {
 
 @pytest.mark.parametrize("source", SENTENCES, ids=range(len(SENTENCES)))
 def test_what_went_wrong_is_one_sentence(source):
-    with Sandbox(source, Limits(seconds=0.3, total=2.0), imports=()) as answer, pytest.raises(Stopped) as why:
+    limits = Limits(seconds=0.3 if "while" in source else 10.0, total=20.0)
+    with Sandbox(source, limits, imports=()) as answer, pytest.raises(Stopped) as why:
         answer.ask("f", [()])
     assert SENTENCES[source] in str(why.value)
     assert plain(str(why.value))
@@ -142,7 +151,7 @@ def test_what_went_wrong_is_one_sentence(source):
 
 def test_it_can_be_asked_again_after_it_raised_and_after_it_was_ended(walled):
     source = "def f(x):\n    if x == 1: raise ValueError\n    if x == 2:\n        while True: pass\n    return x\n"
-    with Sandbox(source, Limits(seconds=0.3, total=3.0), imports=()) as answer:
+    with Sandbox(source, Limits(seconds=0.5, total=20.0), imports=()) as answer:
         for x in (0, 1, 2, 3):
             try:
                 assert answer.ask("f", [(x,)]) == [x]
@@ -152,11 +161,11 @@ def test_it_can_be_asked_again_after_it_raised_and_after_it_was_ended(walled):
 
 
 def test_starting_counts_neither_as_a_question_nor_in_all():
-    with Sandbox("def f(): return 1", Limits(seconds=0.2, total=0.4), imports=("numpy", "scipy.linalg", "sympy")) as answer:
+    with Sandbox("def f(): return 1", Limits(seconds=0.4, total=0.5), imports=("numpy", "scipy.linalg", "sympy")) as answer:
         assert answer.ask("f", [()]) == [1]
 
 
-def test_libraries_can_still_be_imported(walled):
+def test_libraries_can_still_be_imported():
     source = """
 import numpy, sympy, mpmath, scipy.linalg, scipy.optimize, scipy.sparse.linalg, ctypes, random, time, decimal, concurrent.futures
 import matplotlib.path
@@ -208,7 +217,9 @@ def test_the_kernel_refuses_native_code(tmp_path):
     secret.write_text("a")
     own = tmp_path / "own"
     own.mkdir()
-    done = subprocess.run([sys.executable, "-c", NATIVE, own, secret], capture_output=True, text=True, cwd=ROOT, timeout=20)
+    done = subprocess.run(
+        [sys.executable, "-c", NATIVE, own, secret], capture_output=True, text=True, cwd=ROOT, timeout=20, check=False
+    )
     held, _, succeeded = done.stdout.strip("\n").partition(" | ")
     if "files" not in held:
         pytest.skip(f"this kernel has only: {held}")
@@ -220,10 +231,12 @@ def test_it_dies_with_the_grader(tmp_path, walled):
         import os, sys, threading, time
         from rodlab.grading.sandbox import Sandbox
         answer = Sandbox("def f():\\n    while True: pass", imports=())
-        threading.Timer(0.8, lambda: os.kill(os.getpid(), 9)).start()
+        threading.Timer(0.5, lambda: os.kill(os.getpid(), 9)).start()
         answer.ask("f", [()])
     """
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env={**os.environ, "TMPDIR": str(tmp_path)}, timeout=20)
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, env={**os.environ, "TMPDIR": str(tmp_path)}, timeout=20, check=False
+    )
     assert done.returncode == -signal.SIGKILL
     assert none_left(tmp_path)
 
@@ -287,7 +300,9 @@ json_values = st.recursive(
     numbers.filter(lambda x: not isinstance(x, complex)),
     lambda x: (
         st.lists(x, max_size=3)
-        | st.fixed_dictionaries({}, optional=dict.fromkeys(("array", "shape", "imag", "complex", "dict", "expression", "code", "other"), x))
+        | st.fixed_dictionaries(
+            {}, optional=dict.fromkeys(("array", "shape", "imag", "complex", "dict", "expression", "code", "other"), x)
+        )
     ),
     max_leaves=8,
 )
@@ -311,10 +326,9 @@ def test_what_was_not_encoded_is_a_value_or_refused(x):
         left += y if isinstance(y, list) else y.values() if isinstance(y, dict) else []
 
 
-words = st.sampled_from(
-    "x lam pi E I 0 1 2 9 9.5 1e400 9999999 ( ) ( ) , + - * / ** . [ ] : = == < if else lambda for in not and ~ % // @ 'a' f'{x}' "
-    "sin cos exp log sqrt Abs Rational atan2 __import__ __class__ ().__class__ eval open True None yield await \\ # ; \n".split(" ")
-)
+WORDS = """x lam pi E I 0 1 2 9 9.5 1e400 9999999 ( ) ( ) , + - * / ** . [ ] : = == < if else lambda for in not and ~ % // @ 'a' f'{x}'
+sin cos exp log sqrt Abs Rational atan2 __import__ __class__ ().__class__ eval open True None yield await \\ # ;"""
+words = st.sampled_from([*WORDS.split(), "\n"])
 
 
 @settings(max_examples=250)

@@ -1,32 +1,33 @@
 """What a process that answers may do, by Python's means: limits of the system, and an audit hook that is not taken off again.
 
-The hook refuses what an answer has no need of, with a sentence: other processes, the network, files outside its own folder and
-Python's, raising its limits, native code by ctypes. It calls nothing that an answer could have replaced, and reads its rules from
-its own arguments, which no frame or traceback hands out.
+The hook refuses, with a sentence, what an answer has no need of: other processes, the network, files outside its own folder
+and Python's, raising its limits, native code by ctypes. It calls nothing that an answer could have replaced, and is given its
+rules as arguments: what frames and tracebacks hand out of them is a copy.
 
-It does not protect from native code, and NumPy alone can be made to write to any address (`__array_interface__`, `as_strided`), as
-can made-up bytecode and what is left of ctypes: who does that on purpose takes the hook off. Nor does it see os.stat, os.readlink
-(whether a file is there) or threads. The walls against that are the kernel's: `locks` on Linux, and bubblewrap where it is installed.
-Standard library only, as this file is also run in the child.
+It does not protect from native code. NumPy alone can be made to write to any address (`__array_interface__`, `as_strided`), as
+can made-up bytecode and what is left of ctypes: who does that on purpose takes the hook off. Nor does it see threads, or os.stat
+and os.readlink, which tell whether a file is there. Against native code there are only the kernel's walls: `locks` on Linux, and
+bubblewrap where it is installed. Standard library only, as this file is also run in the child.
 """
 
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from itertools import count
 from typing import Any
 
 REFUSED = (
-    "os.fork", "os.forkpty", "os.posix_spawn", "os.exec", "os.spawn", "os.system", "os.startfile", "os.kill", "os.killpg", "pty.spawn",
-    "subprocess.Popen", "_winapi.CreateProcess", "_winapi.TerminateProcess", "_winapi.OpenProcess", "os.setxattr", "os.removexattr",
-    "os.chroot", "os.chdir", "resource.setrlimit", "resource.prlimit", "sys.settrace", "sys.setprofile", "sys.addaudithook",
-    "cpython.PyInterpreterState_New", "gc.get_objects", "gc.get_referrers", "gc.get_referents", "sys._current_frames",
-    "sys._current_exceptions", "sys.remote_exec", "signal.pthread_kill", "syslog.syslog", "syslog.openlog", "fcntl.fcntl", "fcntl.ioctl",
-    "fcntl.lockf", "fcntl.flock", "sqlite3.connect", "ctypes.dlsym", "ctypes.dlsym/handle", "ctypes.call_function", "ctypes.cdata",
-    "ctypes.cdata/buffer", "ctypes.string_at", "ctypes.wstring_at", "ctypes.addressof", "ctypes.memoryview_at", "mmap.__new__",
-    "os.chmod", "os.chown", "os.chflags", "os.lchmod", "os.lchown", "os.link", "os.symlink", "os.mkfifo", "os.mknod",
-    "os.add_dll_directory", "webbrowser.open", "winreg.ConnectRegistry", "winreg.OpenKey", "winreg.CreateKey",
+    "os.fork", "os.forkpty", "os.posix_spawn", "os.exec", "os.spawn", "os.system", "os.startfile", "os.kill", "os.killpg",
+    "pty.spawn", "subprocess.Popen", "_winapi.CreateProcess", "_winapi.TerminateProcess", "_winapi.OpenProcess",
+    "os.setxattr", "os.removexattr", "os.chroot", "os.chdir", "resource.setrlimit", "resource.prlimit", "sys.settrace",
+    "sys.setprofile", "sys.addaudithook", "cpython.PyInterpreterState_New", "gc.get_objects", "gc.get_referrers",
+    "gc.get_referents", "sys._current_frames", "sys._current_exceptions", "sys.remote_exec", "signal.pthread_kill",
+    "syslog.syslog", "syslog.openlog", "fcntl.fcntl", "fcntl.ioctl", "fcntl.lockf", "fcntl.flock", "sqlite3.connect",
+    "ctypes.dlsym", "ctypes.dlsym/handle", "ctypes.call_function", "ctypes.cdata", "ctypes.cdata/buffer", "ctypes.string_at",
+    "ctypes.wstring_at", "ctypes.addressof", "ctypes.memoryview_at", "mmap.__new__", "os.chmod", "os.chown", "os.chflags",
+    "os.lchmod", "os.lchown", "os.link", "os.symlink", "os.mkfifo", "os.mknod", "os.add_dll_directory", "webbrowser.open",
+    "winreg.ConnectRegistry", "winreg.OpenKey", "winreg.CreateKey",
 )  # fmt: skip
 CHANGES = {  # how many paths they are given, and where the folder's number stands that these are relative to
     "os.remove": (1, (1,)), "os.rename": (2, (2, 3)), "os.rmdir": (1, (1,)), "os.mkdir": (1, (2,)), "os.truncate": (1, ()),
@@ -34,7 +35,8 @@ CHANGES = {  # how many paths they are given, and where the folder's number stan
 }  # fmt: skip
 LOOKS = ("os.listdir", "os.scandir")
 MODULES = (  # with doors of their own, which no hook sees
-    "_xxsubinterpreters", "_interpreters", "_testcapi", "_testinternalcapi", "_testlimitedcapi", "_ctypes_test", "_cffi_backend", "cffi",
+    "_xxsubinterpreters", "_interpreters", "_testcapi", "_testinternalcapi", "_testlimitedcapi", "_ctypes_test",
+    "_cffi_backend", "cffi",
     "_sqlite3", "_dbm", "_gdbm", "_posixshmem", "_tkinter", "readline", "numba", "llvmlite",
 )  # fmt: skip
 
@@ -71,7 +73,7 @@ def guard(readable: Sequence[str], hidden: Sequence[str], own: str, files: int) 
     """
     own = _folder(own)
     path = partial(_path, (isinstance, str, str.__str__, bytes, bytes.decode, sys.getfilesystemencoding(), PermissionError))
-    place = partial(_place, (path, _resolve(), OSError, PermissionError, os.sep, own))
+    place = partial(_place, (path, os.readlink, OSError, PermissionError, os.sep, own))  # realpath could be replaced in parts
     change = partial(_change, (place, own, os.devnull + os.sep, count(1).__next__, files, PermissionError))
     read = partial(_read, (place, tuple(map(_folder, hidden)), (*map(_folder, readable), own), PermissionError))
     writes = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND | getattr(os, "O_TMPFILE", 0)
@@ -85,12 +87,7 @@ def _folder(path: str) -> str:
     return os.path.join(os.path.realpath(path), "")
 
 
-def _resolve() -> Callable[[str], str]:
-    """What gives where a link leads to, or raises OSError; not Python's own realpath, whose parts an answer can replace."""
-    return os.readlink
-
-
-# Each of these is given all it uses: its globals, its builtins and its cells can be reached from a traceback, its arguments cannot
+# Each of these is given all that it uses: globals, builtins and cells can be reached from a traceback and written to
 
 
 def _path(tools: tuple[Any, ...], path: Any) -> str:
@@ -155,7 +152,15 @@ def _change(tools: tuple[Any, ...], path: Any, new: bool) -> None:
 
 
 def _hook(
-    tools: tuple[Any, ...], rules: tuple[Any, ...], read: Any, change: Any, path: Any, writes: int, absolute: bool, event: str, given: Any
+    tools: tuple[Any, ...],
+    rules: tuple[Any, ...],
+    read: Any,
+    change: Any,
+    path: Any,
+    writes: int,
+    absolute: bool,
+    event: str,
+    given: Any,
 ) -> None:
     kind, whole, text, is_a, exact, no, no_module, octets = tools
     refused, changes, looks, modules = rules

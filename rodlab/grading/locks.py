@@ -18,27 +18,29 @@ from typing import Any
 
 REFUSED = {  # system calls: their numbers on x86_64 and aarch64, -1 where there is none
     "clone": (56, 220), "fork": (57, -1), "vfork": (58, -1), "execve": (59, 221), "execveat": (322, 281),
-    "socket": (41, 198), "socketpair": (53, 199), "connect": (42, 203), "bind": (49, 200),
-    "ptrace": (101, 117), "process_vm_readv": (310, 270), "process_vm_writev": (311, 271), "process_madvise": (440, 440),
-    "tkill": (200, 130), "rt_sigqueueinfo": (129, 138), "rt_tgsigqueueinfo": (297, 240),
-    "pidfd_send_signal": (424, 424), "pidfd_open": (434, 434), "pidfd_getfd": (438, 438), "setrlimit": (160, 164),
-    "setpgid": (109, 154), "setsid": (112, 157), "setpriority": (141, 140), "sched_setscheduler": (144, 119), "sched_setattr": (314, 274),
-    "mount": (165, 40), "umount2": (166, 39), "pivot_root": (155, 41), "chroot": (161, 51), "unshare": (272, 97), "setns": (308, 268),
-    "open_tree": (428, 428), "move_mount": (429, 429), "fsopen": (430, 430), "fsconfig": (431, 431), "fsmount": (432, 432),
-    "fspick": (433, 433), "mount_setattr": (442, 442), "init_module": (175, 105), "delete_module": (176, 106),
-    "finit_module": (313, 273), "kexec_load": (246, 104), "kexec_file_load": (320, 294), "reboot": (169, 142), "swapon": (167, 224),
-    "swapoff": (168, 225), "settimeofday": (164, 170), "clock_settime": (227, 112), "adjtimex": (159, 171), "clock_adjtime": (305, 266),
-    "sethostname": (170, 161), "setdomainname": (171, 162), "bpf": (321, 280), "perf_event_open": (298, 241), "userfaultfd": (323, 282),
+    "socket": (41, 198), "socketpair": (53, 199), "connect": (42, 203), "bind": (49, 200), "ptrace": (101, 117),
+    "process_vm_readv": (310, 270), "process_vm_writev": (311, 271), "process_madvise": (440, 440), "tkill": (200, 130),
+    "rt_sigqueueinfo": (129, 138), "rt_tgsigqueueinfo": (297, 240), "pidfd_send_signal": (424, 424),
+    "pidfd_open": (434, 434), "pidfd_getfd": (438, 438), "setrlimit": (160, 164), "setpgid": (109, 154),
+    "setsid": (112, 157), "setpriority": (141, 140), "sched_setscheduler": (144, 119), "sched_setattr": (314, 274),
+    "mount": (165, 40), "umount2": (166, 39), "pivot_root": (155, 41), "chroot": (161, 51), "unshare": (272, 97),
+    "setns": (308, 268), "open_tree": (428, 428), "move_mount": (429, 429), "fsopen": (430, 430), "fsconfig": (431, 431),
+    "fsmount": (432, 432), "fspick": (433, 433), "mount_setattr": (442, 442), "init_module": (175, 105),
+    "delete_module": (176, 106), "finit_module": (313, 273), "kexec_load": (246, 104), "kexec_file_load": (320, 294),
+    "reboot": (169, 142), "swapon": (167, 224), "swapoff": (168, 225), "settimeofday": (164, 170),
+    "clock_settime": (227, 112), "adjtimex": (159, 171), "clock_adjtime": (305, 266), "sethostname": (170, 161),
+    "setdomainname": (171, 162), "bpf": (321, 280), "perf_event_open": (298, 241), "userfaultfd": (323, 282),
     "io_uring_setup": (425, 425), "io_uring_enter": (426, 426), "io_uring_register": (427, 427), "add_key": (248, 217),
-    "request_key": (249, 218), "keyctl": (250, 219), "ioperm": (173, -1), "iopl": (172, -1), "acct": (163, 89), "quotactl": (179, 60),
-    "name_to_handle_at": (303, 264), "open_by_handle_at": (304, 265), "fanotify_init": (300, 262), "syslog": (103, 116),
-    "shmget": (29, 194), "shmat": (30, 196), "msgget": (68, 186), "semget": (64, 190), "mq_open": (240, 180),
-    "memfd_create": (319, 279), "memfd_secret": (447, 447), "personality": (135, 92), "move_pages": (279, 239),
-    "migrate_pages": (256, 238), "chmod": (90, -1), "fchmod": (91, 52), "fchmodat": (268, 53), "fchmodat2": (452, 452),
-    "chown": (92, -1), "fchown": (93, 55), "lchown": (94, -1), "fchownat": (260, 54), "utime": (132, -1), "utimes": (235, -1),
-    "futimesat": (261, -1), "utimensat": (280, 88), "setxattr": (188, 5), "lsetxattr": (189, 6), "fsetxattr": (190, 7),
-    "setxattrat": (463, 463), "removexattr": (197, 14), "lremovexattr": (198, 15), "fremovexattr": (199, 16), "truncate": (76, 45),
-    "link": (86, -1), "linkat": (265, 37), "symlink": (88, -1), "symlinkat": (266, 36), "mknod": (133, -1), "mknodat": (259, 33),
+    "request_key": (249, 218), "keyctl": (250, 219), "ioperm": (173, -1), "iopl": (172, -1), "acct": (163, 89),
+    "quotactl": (179, 60), "name_to_handle_at": (303, 264), "open_by_handle_at": (304, 265), "fanotify_init": (300, 262),
+    "syslog": (103, 116), "shmget": (29, 194), "shmat": (30, 196), "msgget": (68, 186), "semget": (64, 190),
+    "mq_open": (240, 180), "memfd_create": (319, 279), "memfd_secret": (447, 447), "personality": (135, 92),
+    "move_pages": (279, 239), "migrate_pages": (256, 238), "chmod": (90, -1), "fchmod": (91, 52), "fchmodat": (268, 53),
+    "fchmodat2": (452, 452), "chown": (92, -1), "fchown": (93, 55), "lchown": (94, -1), "fchownat": (260, 54),
+    "utime": (132, -1), "utimes": (235, -1), "futimesat": (261, -1), "utimensat": (280, 88), "setxattr": (188, 5),
+    "lsetxattr": (189, 6), "fsetxattr": (190, 7), "setxattrat": (463, 463), "removexattr": (197, 14),
+    "lremovexattr": (198, 15), "fremovexattr": (199, 16), "truncate": (76, 45), "link": (86, -1), "linkat": (265, 37),
+    "symlink": (88, -1), "symlinkat": (266, 36), "mknod": (133, -1), "mknodat": (259, 33),
 }  # fmt: skip
 SIGNALS = {"kill": (62, 129), "tgkill": (234, 131)}  # to itself alone, as abort() does
 CLONE3, PRLIMIT, FCNTL, SECCOMP, CAPSET = (435, 435), (302, 261), (72, 25), (317, 277), (126, 91)
@@ -74,7 +76,8 @@ def lock(readable: Sequence[str], hidden: Sequence[str], own: str) -> list[str]:
         return []
     header, none = struct.pack("Ii", 0x20080522, 0), bytes(24)
     libc.syscall(CAPSET[column], header, none)
-    if _files(ctypes, libc, [(path, READ | LIST) for path in _besides(readable, hidden)] + _listed(readable, hidden), own):
+    rules = [(path, READ | LIST) for path in _besides(readable, hidden)]
+    if _files(libc, rules + _listed(readable, hidden), own):
         closed.append("files")
     code = _filter(column, machine, os.getpid())
     buffer = ctypes.create_string_buffer(code, len(code))
@@ -108,7 +111,7 @@ def _filter(column: int, machine: int, own: int) -> bytes:
     return b"".join([*code, yes])
 
 
-def _files(ctypes: Any, libc: Any, rules: Sequence[tuple[str, int]], own: str) -> bool:
+def _files(libc: Any, rules: Sequence[tuple[str, int]], own: str) -> bool:
     """True if from now on only files of the rules can be read, and only those below `own` be written to."""
     version = libc.syscall(RULESET, None, 0, 1)
     if version < 1:
@@ -126,7 +129,7 @@ def _files(ctypes: Any, libc: Any, rules: Sequence[tuple[str, int]], own: str) -
         of_file = rights if os.path.isdir(path) else rights & (READ | WRITE)
         libc.syscall(RULE, ruleset, 1, struct.pack("=Qi", of_file & handled, place), 0)
         os.close(place)
-    done = libc.syscall(RESTRICT, ruleset, 0) == 0
+    done = bool(libc.syscall(RESTRICT, ruleset, 0) == 0)
     os.close(ruleset)
     return done
 

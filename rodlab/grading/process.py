@@ -1,7 +1,7 @@
 """The process that answers, seen from outside: its pipes, the questions on the one and what it says on the other, and its end.
 
-What it says is never trusted: a line has a largest length, must be an object of JSON with the question's number, and becomes a plain
-value or a sentence.
+What it says is never trusted: a line has a largest length, must be an object of JSON with the question's number, and becomes a
+plain value or a sentence.
 """
 
 import contextlib
@@ -27,11 +27,11 @@ NO_ANSWER = "broke off: what it wrote is no answer"
 
 
 class Gone(Exception):
-    """It cannot be asked again, and why in one sentence."""
+    """It has to be ended, and why in one sentence; `forged` if it wrote what the child does not write."""
 
-    def __init__(self, sentence: str) -> None:
+    def __init__(self, sentence: str, *, forged: bool = False) -> None:
         super().__init__(sentence)
-        self.sentence = sentence
+        self.sentence, self.forged = sentence, forged
 
 
 class Raised(Exception):
@@ -90,7 +90,7 @@ class Process:
         for i, given in enumerate(calls):
             reply = self.read(until - time.monotonic(), seconds)
             if reply.get("id") != [number, i]:
-                raise Gone(NO_ANSWER)
+                raise Gone(NO_ANSWER, forged=True)
             if "error" in reply:
                 raise Raised(raised(reply, given), reply["error"] == "NotImplementedError")
             values.append(_value(reply.get("value")))
@@ -111,7 +111,7 @@ class Process:
         except (ValueError, RecursionError, MemoryError):
             found = None
         if not isinstance(found, dict):
-            raise Gone(NO_ANSWER)
+            raise Gone(NO_ANSWER, forged=True)
         return found
 
     def _ended(self) -> str:
@@ -151,7 +151,7 @@ def _value(x: Any) -> Any:
     try:
         return decode(x, code=False)
     except (ValueError, TypeError, OverflowError, RecursionError, MemoryError):
-        raise Gone("broke off: what it wrote is no value") from None
+        raise Gone("broke off: what it wrote is no value", forged=True) from None
 
 
 def raised(reply: dict[str, Any], given: tuple[Any, ...] = ()) -> str:

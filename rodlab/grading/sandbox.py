@@ -1,7 +1,8 @@
 """An answer in a process of its own: asked for values, under limits, and stopped when it does not come back.
 
-What is given into the process is the submission and the arguments; what comes out are plain values (`plain`). Around it are limits of
-the system and an audit hook (`guard`), on Linux what the kernel refuses (`locks`), and bubblewrap where it is installed (`walls`).
+What is given into the process is the submission and the arguments; what comes out are plain values (`plain`). Around it are
+limits of the system and an audit hook (`guard`), on Linux what the kernel refuses (`locks`), and bubblewrap where it is installed
+(`walls`).
 """
 
 import time
@@ -98,7 +99,8 @@ class Sandbox:
             return process.ask(name, calls, min(allowed, self._left()))
         except Gone as gone:
             self._close()
-            raise Stopped(gone.sentence) from None
+            self.dead = gone.sentence if gone.forged else None  # who forges replies is not asked again
+            raise Stopped(gone.sentence, lost=gone.forged) from None
         except Raised as error:
             raise Stopped(error.sentence, unanswered=error.unanswered) from None
 

@@ -16,9 +16,9 @@ from pathlib import Path
 MIB = 2**20
 TEXTS = ("plain", "locks", "guard", "child")
 SYSTEM = (  # what Python and its libraries read besides themselves
-    "/usr/lib", "/usr/lib64", "/usr/local/lib", "/usr/share/fonts", "/usr/share/zoneinfo", "/lib", "/lib64", "/System/Library",
-    "/etc/ld.so.cache", "/etc/ld.so.conf", "/etc/ld.so.conf.d", "/etc/alternatives", "/etc/fonts", "/etc/localtime", "/etc/mime.types",
-    "/dev/urandom", "/dev/null",
+    "/usr/lib", "/usr/lib64", "/usr/local/lib", "/usr/share/fonts", "/usr/share/zoneinfo", "/lib", "/lib64",
+    "/System/Library", "/etc/ld.so.cache", "/etc/ld.so.conf", "/etc/ld.so.conf.d", "/etc/alternatives", "/etc/fonts",
+    "/etc/localtime", "/etc/mime.types", "/dev/urandom", "/dev/null",
 )  # fmt: skip
 
 
@@ -80,7 +80,8 @@ def walls(hidden: tuple[str, ...]) -> list[str]:
     roots = ("/usr", *readable())
     covered = [folder for folder in hidden if any(folder.startswith(root + os.sep) for root in roots)]
     return [
-        path, "--unshare-all", "--die-with-parent", "--new-session", "--cap-drop", "ALL", *binds, "--proc", "/proc", "--dev", "/dev",
-        *(part for folder in covered for part in ("--tmpfs", folder)), "--size", str(MIB), "--tmpfs", "/dev/shm",
+        path, "--unshare-all", "--die-with-parent", "--new-session", "--cap-drop", "ALL", *binds, "--proc", "/proc",
+        "--dev", "/dev", *(part for folder in covered for part in ("--tmpfs", folder)),
+        "--size", str(MIB), "--tmpfs", "/dev/shm",  # noqa: S108 the inner one
         "--size", str(16 * MIB), "--tmpfs", "/answer", "--remount-ro", "/", "--chdir", "/answer",
     ]  # fmt: skip

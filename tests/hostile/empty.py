@@ -1,3 +1,3 @@
 # Nothing but this comment
-# points: 0
+# points: 0, by its values alone
 

@@ -1,5 +1,5 @@
 # Writes to every open number, the protocol's pipe among them, without end
-# points: 0
+# points: 0, in haste
 import os
 
 while True:

@@ -1,5 +1,5 @@
 # A fork bomb
-# points: 0
+# points: 0, in haste
 import os
 
 while True:

@@ -1,5 +1,5 @@
 # Answers with bytes that are no text, numbers without end, lists 10^5 deep, and text where a number is due
-# points: 4.5
+# points: 2.25
 import os
 
 import numpy as np

@@ -1,5 +1,5 @@
 # An array that needs more memory than there is, filled page by page
-# points: 4.5
+# points: at most 4.5, in haste
 import numpy as np
 
 

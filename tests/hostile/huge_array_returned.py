@@ -1,5 +1,5 @@
 # An array of no numbers whose shape fills the memory of who makes a list of it
-# points: 4.5
+# points: 4.5, by its values alone
 import numpy as np
 
 

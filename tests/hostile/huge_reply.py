@@ -1,5 +1,5 @@
 # Ten million numbers for one
-# points: 4.5
+# points: at most 4.5, by its values alone, in haste
 import numpy as np
 
 

@@ -1,5 +1,5 @@
 # A loop that never ends, in a function
-# points: 4.5
+# points: at most 4.5, in haste
 import numpy as np
 
 

@@ -1,5 +1,5 @@
 # A call of compiled code that takes for ever and looks at no signal
-# points: 4.5
+# points: at most 4.5, by its values alone, in haste
 import numpy as np
 
 

@@ -1,5 +1,5 @@
 # A loop that ignores signals and catches whatever is raised
-# points: 0
+# points: 0, in haste
 import signal
 
 for number in range(1, 65):

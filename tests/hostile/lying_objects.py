@@ -1,5 +1,5 @@
 # Objects that lie about their class, value, length, equality and text
-# points: 0
+# points: 0, by its values alone
 class Liar:
     __class__ = float
 

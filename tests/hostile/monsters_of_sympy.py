@@ -1,5 +1,5 @@
 # Expressions of SymPy that never end, and one nested deeply
-# points: 0
+# points: 0, by its values alone, in haste
 import sympy as sp
 
 x = sp.Symbol("x")

@@ -1,5 +1,5 @@
 # Lists 10^5 deep, lists in themselves, generators and functions
-# points: 0
+# points: 0, by its values alone
 def deep():
     found = []
     for _ in range(10**5):

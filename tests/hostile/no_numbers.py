@@ -1,5 +1,5 @@
 # Not a number, infinity and whole numbers without end
-# points: 0
+# points: 0, by its values alone
 import math
 
 import numpy as np

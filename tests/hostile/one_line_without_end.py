@@ -1,5 +1,5 @@
 # Writes one line without end to every open number
-# points: 0
+# points: 0, in haste
 import os
 
 while True:

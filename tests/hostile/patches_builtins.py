@@ -1,5 +1,5 @@
 # Replaces builtins in the hope that a check uses them
-# points: 0
+# points: 0, by its values alone
 import builtins
 import numpy as np
 

@@ -1,5 +1,5 @@
 # Raises KeyboardInterrupt, with escape sequences and a text of many lines
-# points: 4.5
+# points: 4.5, by its values alone
 import numpy as np
 
 

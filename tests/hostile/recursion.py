@@ -1,5 +1,5 @@
 # Calls itself for ever, the limit raised
-# points: 4.5
+# points: at most 4.5, in haste
 import sys
 
 import numpy as np

@@ -1,5 +1,5 @@
 # Sleeps for ever
-# points: 4.5
+# points: at most 4.5, by its values alone, in haste
 import time
 
 import numpy as np

@@ -1,5 +1,5 @@
 # Answers each call just in time, so that no question runs out of it but the whole does
-# points: at most 3
+# points: at most 3, by its values alone, in haste
 import time
 
 import numpy as np
@@ -24,11 +24,11 @@ def right(lam):
 
 def slow(function):
     def slowed(*given):
-        time.sleep(0.3 if function in (branch_points, modes) else 0.08)
+        time.sleep(0.2 if function in (branch_points, modes) else 0.06)
         return function(*given)
 
     return slowed
 
 
 hessian, index, branch_points, modes = slow(hessian), slow(right), slow(branch_points), slow(modes)
-time.sleep(0.25)
+time.sleep(0.2)

@@ -1,5 +1,5 @@
 # Texts and symbols that look like code
-# points: 0
+# points: 0, by its values alone
 import sympy as sp
 
 

@@ -1,5 +1,5 @@
 # Threads without end, each in a loop
-# points: 0
+# points: 0, in haste
 import threading
 
 
