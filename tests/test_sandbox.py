@@ -93,7 +93,9 @@ def test_a_hostile_submission_has_only_the_points_it_earned(path, walled, tmp_pa
     if "by its values alone" in marks and walled == "bubblewrap":
         pytest.skip("it asks the system for nothing that walls would refuse")
     before, start = state(), time.monotonic()
-    report = course.check_source(course.exercise("two-joints"), text.replace("@ROOT@", str(ROOT)), seed=5, limits=HASTE if "in haste" in marks else SMALL)
+    report = course.check_source(
+        course.exercise("two-joints"), text.replace("@ROOT@", str(ROOT)), seed=5, limits=HASTE if "in haste" in marks else SMALL
+    )
     took = time.monotonic() - start
     assert took < 15.0
     most = float(earned.removeprefix("at most "))
