@@ -39,7 +39,6 @@ WAYS = [
     lambda: open(f"/proc/{PARENT}/mem", "r+b"),
     lambda: open("/proc/self/mem", "r+b"),
     lambda: open("/proc/self/environ", "rb").read()[0],
-    lambda: open(f"/proc/{PARENT}/fd/0", "rb"),
 ]
 
 
