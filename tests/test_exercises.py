@@ -7,11 +7,17 @@ from pathlib import Path
 import pytest
 
 from rodlab.lab import course
-from rodlab.lab.taught import folder_of, taught
+from rodlab.lab.taught import folder_of, index, taught
 
 ROOT = Path(__file__).parents[1]
 TEACHER = sorted((ROOT / "exercises" / "teacher").glob("*.py"))
 FILES = {path.stem: path for path in TEACHER}
+
+
+def test_the_course_is_whole():
+    assert len(FILES) >= 24
+    assert course.names() == sorted(FILES)
+    assert (ROOT / "exercises" / "README.md").read_text() == index(ROOT / "exercises" / "teacher")
 
 
 def judged(name, source, seed=None):
