@@ -162,7 +162,9 @@ def index(teacher: Path) -> str:
         rows.append((source[1] if source else "", f"[{found.name}]({found.name}/README.md)", title, functions))
     lines = [f"| {' | '.join(row)} |" for row in sorted(rows)]
     head = "| notes | exercise | about | write |\n|---|---|---|---|"
-    foot = "Answers are checked by `rodlab check FOLDER`, in a notebook by `rl.check(NAME, globals())`. Solutions are in `teacher`, for those who teach."
+    foot = (
+        "Answers are checked by `rodlab check FOLDER`, in a notebook by `rl.check(NAME, globals())`. Solutions are in `teacher`."
+    )
     return f"# {len(rows)} exercises that check themselves\n\n{head}\n" + "\n".join(lines) + f"\n\n{foot}\n"
 
 
