@@ -91,14 +91,6 @@ exercise = Exercise(
                     "The load of a fold may be negative: which angles have you passed over?",
                     lambda m: table(2 * m)[1::2],
                 ),
-                Mistake(
-                    "size of the load",
-                    "Insert each row into f: which sign does the load need where the sine is negative?",
-                    lambda m: np.abs(table(m)),
-                ),
-                Mistake(
-                    "load and angle interchanged", "In which order does a row give angle and load?", lambda m: table(m)[:, ::-1]
-                ),
             ),
             hint="Eliminate the load from f = 0 and df/dphi = 0; between which multiples of pi/2 does each root lie?",
         ),

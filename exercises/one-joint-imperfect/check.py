@@ -74,11 +74,6 @@ exercise = Exercise(
                     "Does a load that presses down increase the lean?",
                     lambda lam, beta: state(-lam, beta, 0.0),
                 ),
-                Mistake(
-                    "always to the positive side",
-                    "Try a negative beta: to which side does the strut lean?",
-                    lambda lam, beta: state(lam, abs(beta)),
-                ),
             ),
             hint="For positive beta the function f is negative at beta and positive at pi, with one root between them.",
         ),
@@ -135,11 +130,6 @@ exercise = Exercise(
                     "square root",
                     "Which is the first power of phi that is left of phi - sin(phi)?",
                     lambda beta: (np.sqrt(6 * beta), 1 + (3 * beta) ** (2 / 3) / 2),
-                ),
-                Mistake(
-                    "quadratic term of the load",
-                    "Expand 1/cos(phi) at the angle of the fold to second order, with its factor.",
-                    lambda beta: ((6 * beta) ** (1 / 3), 1 + (3 * beta) ** (2 / 3)),
                 ),
                 Mistake(
                     "sine's cubic for the tangent's",

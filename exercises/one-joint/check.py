@@ -127,7 +127,6 @@ exercise = Exercise(
                     "The series holds near lam = 1 only. Use its angle as a first guess and solve the equation.",
                     lambda lam: np.sqrt(6 * (lam - 1)),
                 ),
-                Mistake("mirror image", "Which of the two buckled states is asked for?", lambda lam: -angle(lam)),
             ),
             hint="Enclose the root: phi - lam sin(phi) is negative just above zero and positive at pi.",
         ),

@@ -146,14 +146,6 @@ exercise = Exercise(
                     "The load of a fold may be negative: which angles have you passed over?",
                     lambda m: table(2 * m)[1::2],
                 ),
-                Mistake(
-                    "size of the load",
-                    "Insert each row into f: which sign does the load need where the sine is negative?",
-                    lambda m: np.abs(table(m)),
-                ),
-                Mistake(
-                    "load and angle interchanged", "In which order does a row give angle and load?", lambda m: table(m)[:, ::-1]
-                ),
             ),
             hint="Eliminate the load from f = 0 and df/dphi = 0; between which multiples of pi/2 does each root lie?",
         ),
@@ -210,8 +202,6 @@ PROOFS = {
         "(turn - 1 / 2) * np.pi",
     ),
     "folds: folds under pressure only": ("range(1, m + 1)", "range(2, 2 * m + 1, 2)"),
-    "folds: size of the load": ("(phi, 1 / np.cos(phi))", "(phi, abs(1 / np.cos(phi)))"),
-    "folds: load and angle interchanged": ("(phi, 1 / np.cos(phi))", "(1 / np.cos(phi), phi)"),
     "equilibria: one turn only": ("abs(lam) + 1, 100_000", "np.pi, 100_000"),
     "equilibria: one side only": (ROOTS, "np.concatenate([[0.0], positive])"),
     "equilibria: straight state forgotten": (ROOTS, "np.concatenate([-positive[::-1], positive])"),

@@ -183,7 +183,6 @@ exercise = Exercise(
                     "The series holds near lam = 1 only. Use its angle as a first guess and solve the equation.",
                     lambda lam: np.sqrt(6 * (lam - 1)),
                 ),
-                Mistake("mirror image", "Which of the two buckled states is asked for?", lambda lam: -angle(lam)),
             ),
             hint="Enclose the root: phi - lam sin(phi) is negative just above zero and positive at pi.",
         ),
@@ -206,5 +205,4 @@ PROOFS = {
         "brentq(lambda phi: phi - lam * np.sin(phi), low, high, xtol=1e-14)",
         "np.sqrt(6 * (lam - 1))",
     ),
-    "buckled: mirror image": ("return brentq(", "return -brentq("),
 }
