@@ -195,11 +195,6 @@ exercise = Exercise(
                     when=lambda given: np.isinf(given[-1][1][1]) and np.isfinite(given[0][1][1]),
                 ),
                 Mistake(
-                    "sign lost",
-                    "Each negative pivot turns the sign.",
-                    when=lambda given: all(v[0] == 1 and abs(v[1] / from_bottom(*a)[1] - 1) < 1e-6 for a, v in given),
-                ),
-                Mistake(
                     "product of the diagonal",
                     "The determinant is the product of the pivots.",
                     lambda d, e: log_product(d, e, over=d),
@@ -218,6 +213,5 @@ PROOFS = {
     "solve: right-hand side not eliminated": ("x[i] -= off_diagonal[i - 1] / p[i - 1] * x[i - 1]", "pass"),
     "solve: no way back up": ("x[i] = (x[i] - off_diagonal[i] * x[i + 1]) / p[i]", "x[i] = x[i] / p[i]"),
     "determinant: product overflows": ("np.sum(np.log(np.abs(p)))", "np.log(np.abs(np.prod(p)))"),
-    "determinant: sign lost": ("np.prod(np.sign(p))", "1"),
     "determinant: product of the diagonal": ("p = pivots(diagonal, off_diagonal)\n    return", "p = diagonal\n    return"),
 }

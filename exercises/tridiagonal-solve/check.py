@@ -142,11 +142,6 @@ exercise = Exercise(
                     when=lambda given: np.isinf(given[-1][1][1]) and np.isfinite(given[0][1][1]),
                 ),
                 Mistake(
-                    "sign lost",
-                    "Each negative pivot turns the sign.",
-                    when=lambda given: all(v[0] == 1 and abs(v[1] / from_bottom(*a)[1] - 1) < 1e-6 for a, v in given),
-                ),
-                Mistake(
                     "product of the diagonal",
                     "The determinant is the product of the pivots.",
                     lambda d, e: log_product(d, e, over=d),
