@@ -81,11 +81,6 @@ exercise = Exercise(
                     lambda phi, h: tip(phi, h)[::-1],
                 ),
                 Mistake("h forgotten", "How long is your strut? Each link has the length h.", lambda phi, h: tip(phi, 1.0)),
-                Mistake(
-                    "one link beyond",
-                    "Link i - 1 ends at joint i. Your points begin at the clamp, which is no unknown.",
-                    lambda phi, h: tuple(np.append(0.0, part[:-1]) for part in tip(phi, h)),
-                ),
             ),
             hint="Sum the constraints from the clamp upwards; the clamped link 0 is the first to be summed.",
         ),
@@ -114,11 +109,6 @@ exercise = Exercise(
                     "one too few",
                     "There is a constraint for each link, the clamped one too: how many links are there?",
                     lambda n, lam: (np.zeros(n), np.full(n, -lam)),
-                ),
-                Mistake(
-                    "load shared",
-                    "What is the difference of neighbouring multipliers by the derivatives with respect to the places in between?",
-                    lambda n, lam: (np.zeros(n + 1), np.append(np.zeros(n), -lam)),
                 ),
             ),
             hint="Each place but the last occurs in two constraints with opposite signs; begin with the last one.",
