@@ -71,7 +71,7 @@ def test_the_students_notebook_runs_as_it_is(name):
 TRIVIAL = {
     "zero": lambda *_: 0, "one": lambda *_: 1, "its first argument": lambda *given: given[0] if given else 0,
     "its last argument": lambda *given: given[-1] if given else 0, "zeros like its first argument": lambda *given: 0 * np.asarray(given[0]),
-    "the identity": lambda *given: np.eye(np.size(given[0])), "two zeros": lambda *_: (0, 0), "three ones": lambda *_: (1, 1, 1),
+    "the identity": lambda *given: np.eye(min(np.size(given[0]), 20)), "two zeros": lambda *_: (0, 0), "three ones": lambda *_: (1, 1, 1),
     "True": lambda *_: True, "nothing": lambda *_: None, "no number": lambda *_: float("nan"), "a pair of ones": lambda *_: (1.0, 1.0),
 }  # fmt: skip
 
