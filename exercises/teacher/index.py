@@ -220,10 +220,7 @@ PROOFS = {
         "return below(diagonal, off_diagonal, 0.0)",
         "return below(diagonal, off_diagonal, 0.0) % 2",
     ),
-    "index: zero pivot counted as negative": [
-        ("        if pivot == 0:\n            pivot = tiny\n", ""),
-        ("count += int(pivot < 0)", "count += int(pivot <= 0)"),
-    ],
+    "index: zero pivot counted as negative": ("pivot = tiny", "count, pivot = count + 1, tiny"),
     "eigenvalue: counted from the largest": ("middle) >= j", "middle) >= len(diagonal) + 1 - j"),
     "eigenvalue: next one": ("middle) >= j", "middle) >= j % len(diagonal) + 1"),
 }

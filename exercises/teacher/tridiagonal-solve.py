@@ -212,6 +212,9 @@ PROOFS = {
     "pivots: added instead of subtracted": ("d - e**2", "d + e**2"),
     "solve: right-hand side not eliminated": ("x[i] -= off_diagonal[i - 1] / p[i - 1] * x[i - 1]", "pass"),
     "solve: no way back up": ("x[i] = (x[i] - off_diagonal[i] * x[i + 1]) / p[i]", "x[i] = x[i] / p[i]"),
-    "determinant: product overflows": ("np.sum(np.log(np.abs(p)))", "np.log(np.abs(np.prod(p)))"),
+    "determinant: product overflows": [
+        ("import numpy as np", "import math\n\nimport numpy as np"),
+        ("np.sum(np.log(np.abs(p)))", "np.log(abs(math.prod(p.tolist())))"),
+    ],
     "determinant: product of the diagonal": ("p = pivots(diagonal, off_diagonal)\n    return", "p = diagonal\n    return"),
 }

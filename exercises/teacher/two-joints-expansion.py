@@ -19,7 +19,7 @@ $$\phi_1 = a_j \varepsilon + b_j \varepsilon^3 + O(\varepsilon^5), \qquad \lambd
 
 # %% answer
 import numpy as np
-from scipy.optimize import fsolve
+from scipy.optimize import root
 
 
 def branch_load(j):
@@ -54,7 +54,7 @@ def state(j, eps):
 
     a, b = shape(j)
     guess = [a * eps + b * eps**3, branch_load(j) + coefficient(j) * eps**2]
-    return fsolve(residual, guess, xtol=1e-13)
+    return root(residual, guess, tol=1e-12).x
     ### END SOLUTION
 
 
@@ -204,7 +204,7 @@ PROOFS = {
     "coefficient: factorial of the sine": ("return lam / 6 *", "return lam / 2 *"),
     "shape: mode upside down": ("return [1 - lam,", "return [1 / (1 - lam),"),
     "shape: load of the branch point in the cubic term": ("lam / 6 - coefficient(j)]", "lam / 6]"),
-    "state: first order": ("fsolve(residual, guess, xtol=1e-13)", "a * eps, branch_load(j)"),
-    "state: series for the solution": ("fsolve(residual, guess, xtol=1e-13)", "guess"),
+    "state: first order": ("root(residual, guess, tol=1e-12).x", "a * eps, branch_load(j)"),
+    "state: series for the solution": ("root(residual, guess, tol=1e-12).x", "guess"),
     "state: on the other branch": ("a, b = shape(j)", "j = 3 - j\n    a, b = shape(j)"),
 }

@@ -1,6 +1,6 @@
 # rodlab exercise: two-joints-expansion
 import numpy as np
-from scipy.optimize import fsolve
+from scipy.optimize import root
 
 
 def branch_load(j):
