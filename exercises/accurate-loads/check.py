@@ -86,8 +86,13 @@ def from_the_tridiagonal(given):
     def off_by_rounding(value, k, h):
         return abs(value - first_load(k, h)) / np.max(matrix(k, h)) < 1e-13
 
-    lost = any(not off_load(value, *a) < 1e-8 for a, value in spread_only(given))
+    lost = any(not off_load(value, *a) < 1e-5 for a, value in spread_only(given))
     return lost and all(off_by_rounding(value, *a) for a, value in given) and right_where_even(given, off_load, 1e-9)
+
+
+def half_of_the_digits(given):
+    off = max(off_load(value, *a) for a, value in given)
+    return 1e-10 < off < 1e-5 and right_where_even(given, off_load, 1e-9)
 
 
 def like_even(other, within=1e-6):
@@ -156,6 +161,11 @@ exercise = Exercise(
                     "from the tridiagonal matrix",
                     "Your error is small against the largest load, not against the smallest. Which digits do the sums k_i + k_(i+1) keep?",
                     when=from_the_tridiagonal,
+                ),
+                Mistake(
+                    "digits lost in the singular values",
+                    "B keeps the digits, but your way from B to its smallest singular value rounds against its largest one.",
+                    when=half_of_the_digits,
                 ),
                 Mistake(
                     "square forgotten",

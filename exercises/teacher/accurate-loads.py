@@ -125,8 +125,13 @@ def from_the_tridiagonal(given):
     def off_by_rounding(value, k, h):
         return abs(value - first_load(k, h)) / np.max(matrix(k, h)) < 1e-13
 
-    lost = any(not off_load(value, *a) < 1e-8 for a, value in spread_only(given))
+    lost = any(not off_load(value, *a) < 1e-5 for a, value in spread_only(given))
     return lost and all(off_by_rounding(value, *a) for a, value in given) and right_where_even(given, off_load, 1e-9)
+
+
+def half_of_the_digits(given):
+    off = max(off_load(value, *a) for a, value in given)
+    return 1e-10 < off < 1e-5 and right_where_even(given, off_load, 1e-9)
 
 
 def like_even(other, within=1e-6):
@@ -197,6 +202,11 @@ exercise = Exercise(
                     when=from_the_tridiagonal,
                 ),
                 Mistake(
+                    "digits lost in the singular values",
+                    "B keeps the digits, but your way from B to its smallest singular value rounds against its largest one.",
+                    when=half_of_the_digits,
+                ),
+                Mistake(
                     "square forgotten",
                     "This is a singular value of B; how is a load made of it?",
                     when=like_even(lambda k, h: np.sqrt(first_load(k, h))),
@@ -240,6 +250,10 @@ PROOFS = {
     "smallest_load: from the tridiagonal matrix": (
         "    return 1 / np.linalg.norm(inverse, 2) ** 2",
         "    A = np.diag(k + np.append(k[1:], 0)) - np.diag(k[1:], 1) - np.diag(k[1:], -1)\n    return np.linalg.eigvalsh(A / h)[0]",
+    ),
+    "smallest_load: digits lost in the singular values": (
+        "    return 1 / np.linalg.norm(inverse, 2) ** 2",
+        "    B, O = factor(k, h), np.zeros((n, n))\n    return np.linalg.eigvalsh(np.block([[O, B.T], [B, O]]))[n] ** 2",
     ),
     "smallest_load: square forgotten": ("1 / np.linalg.norm(inverse, 2) ** 2", "1 / np.linalg.norm(inverse, 2)"),
     "smallest_load: largest load": ("1 / np.linalg.norm(inverse, 2) ** 2", "np.linalg.norm(factor(k, h), 2) ** 2"),
