@@ -125,13 +125,13 @@ def from_the_tridiagonal(given):
     def off_by_rounding(value, k, h):
         return abs(value - first_load(k, h)) / np.max(matrix(k, h)) < 1e-13
 
-    lost = any(not off_load(value, *a) < 1e-5 for a, value in spread_only(given))
+    lost = any(not off_load(value, *a) < 2e-7 for a, value in spread_only(given))
     return lost and all(off_by_rounding(value, *a) for a, value in given) and right_where_even(given, off_load, 1e-9)
 
 
 def half_of_the_digits(given):
     off = max(off_load(value, *a) for a, value in given)
-    return 1e-10 < off < 1e-5 and right_where_even(given, off_load, 1e-9)
+    return 1e-10 < off < 2e-7 and right_where_even(given, off_load, 1e-9)
 
 
 def like_even(other, within=1e-6):
