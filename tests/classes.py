@@ -23,7 +23,9 @@ def write_class(folder, count, *, exercises=None, broken=0, seed=0):
             kind, source = "broken", BROKEN[i % len(BROKEN)]
         else:
             kind = draw.choices(["right", "mistake", "stub"], [5, 4, 1])[0]
-            source = {"right": own.reference, "stub": own.stub}.get(kind) or draw.choice(list(own.mistaken().values()))
+            mistaken = list(own.mistaken().values())
+            likely = draw.choices(mistaken, [1 / (k + 1) ** 2 for k in range(len(mistaken))])[0]  # some are more frequent
+            source = {"right": own.reference, "stub": own.stub}.get(kind, likely)
         path = Path(folder) / student / own.name / "answer.py"
         path.parent.mkdir(parents=True)
         path.write_text(f"# rodlab exercise: {own.name}\n{source}")

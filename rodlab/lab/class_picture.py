@@ -17,14 +17,14 @@ STATES = {  # of a submission: its name, grey, hatch
     "unanswered": ("not all answered", "1.0", ""),
     "lost": ("did not run", "1.0", "////"),
 }
-MOST = 20  # mistakes that are named
+MOST = 16  # mistakes that are named at least, or as many as there are exercises
 LONGEST = 64  # letters of a name
 
 
 def class_picture(records: Sequence[Mapping[str, Any]]) -> Figure:
     """Bars of the submissions of each exercise on the left, bars of the mistakes on the right."""
     exercises = sorted({r["exercise"] for r in records if r["exercise"]})
-    mistakes = _mistakes(records)[:MOST]
+    mistakes = _mistakes(records)[: max(MOST, len(exercises))]
     rows = max(len(exercises), len(mistakes), 4)
     fig, (left, right) = figure(11.0, 1.6 + 0.26 * rows, ncols=2, width_ratios=(1.0, 1.0))
     _fates(left, records, exercises)
