@@ -27,8 +27,11 @@ def energy(bend, K, u_hat, tau):
 
 def above(slope, K, u_hat, tau):
     """The difference of two energies, each integrated as it stands."""
-    rest = lambda t: u_hat(t) + tau / K(t)
-    return energy(lambda t: rest(t) + slope(t), K, u_hat, tau) - energy(rest, K, u_hat, tau)
+
+    def bend(t, eta=0.0):
+        return u_hat(t) + tau / K(t) + eta
+
+    return energy(lambda t: bend(t, slope(t)), K, u_hat, tau) - energy(bend, K, u_hat, tau)
 
 
 def turned_to(value, tip, K, u_hat):

@@ -93,17 +93,12 @@ exercise = Exercise(
                 Mistake(
                     "not inverted",
                     "This turns the same way as the map from the fixed basis does. Go there and back: are you where you started?",
-                    lambda *given: turned(*given),
+                    turned,
                 ),
                 Mistake(
                     "only the sine's angle turned back",
                     "The inverse of a rotation is one by the opposite angle. Which of cos and sin changes its sign, and in which entries?",
                     lambda n1, n3, phi: np.array([n1 * np.cos(phi) + n3 * np.sin(phi), n1 * np.sin(phi) + n3 * np.cos(phi)]),
-                ),
-                Mistake(
-                    "degrees for radians",
-                    "The angle is given in radians: nothing is to be converted.",
-                    lambda n1, n3, phi: turned(n1, n3, -np.radians(phi)),
                 ),
             ),
             hint="Collect in n1 d_1 + n3 d_3 what stands before e_1, and before e_3.",

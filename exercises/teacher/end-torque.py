@@ -23,8 +23,7 @@ from scipy.integrate import quad
 def angle(s, K, u_hat, tau):
     """phi at the arclengths s (shape (k,)), radians, an array of shape (k,)."""
     ### BEGIN SOLUTION
-    curvature = lambda t: u_hat(t) + tau / K(t)
-    return np.array([quad(curvature, 0.0, end, epsabs=1e-12)[0] for end in s])
+    return np.array([quad(lambda t: u_hat(t) + tau / K(t), 0.0, end, epsabs=1e-12)[0] for end in s])
     ### END SOLUTION
 
 
@@ -72,8 +71,11 @@ def energy(bend, K, u_hat, tau):
 
 def above(slope, K, u_hat, tau):
     """The difference of two energies, each integrated as it stands."""
-    rest = lambda t: u_hat(t) + tau / K(t)
-    return energy(lambda t: rest(t) + slope(t), K, u_hat, tau) - energy(rest, K, u_hat, tau)
+
+    def bend(t, eta=0.0):
+        return u_hat(t) + tau / K(t) + eta
+
+    return energy(lambda t: bend(t, slope(t)), K, u_hat, tau) - energy(bend, K, u_hat, tau)
 
 
 def turned_to(value, tip, K, u_hat):

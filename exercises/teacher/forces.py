@@ -135,17 +135,12 @@ exercise = Exercise(
                 Mistake(
                     "not inverted",
                     "This turns the same way as the map from the fixed basis does. Go there and back: are you where you started?",
-                    lambda *given: turned(*given),
+                    turned,
                 ),
                 Mistake(
                     "only the sine's angle turned back",
                     "The inverse of a rotation is one by the opposite angle. Which of cos and sin changes its sign, and in which entries?",
                     lambda n1, n3, phi: np.array([n1 * np.cos(phi) + n3 * np.sin(phi), n1 * np.sin(phi) + n3 * np.cos(phi)]),
-                ),
-                Mistake(
-                    "degrees for radians",
-                    "The angle is given in radians: nothing is to be converted.",
-                    lambda n1, n3, phi: turned(n1, n3, -np.radians(phi)),
                 ),
             ),
             hint="Collect in n1 d_1 + n3 d_3 what stands before e_1, and before e_3.",
@@ -202,7 +197,6 @@ PROOFS = {
     "body: in the other order": (BODY, "return N1 * np.sin(phi) + N3 * np.cos(phi), N1 * np.cos(phi) - N3 * np.sin(phi)"),
     "fixed: not inverted": (FIXED, "return body(n1, n3, phi)"),
     "fixed: only the sine's angle turned back": ("n3 * np.cos(phi) - n1 * np.sin(phi)", "n3 * np.cos(phi) + n1 * np.sin(phi)"),
-    "fixed: degrees for radians": (FIXED, f"phi = np.radians(phi)\n    {FIXED}"),
     "rates: force turns the wrong way": (RATES, "kappa * n3, -kappa * n1, -n1"),
     "rates: sign of the moment's derivative": (RATES, "-kappa * n3, kappa * n1, n1"),
     "rates: curvature forgotten": (RATES, "-n3, n1, -n1"),
