@@ -177,13 +177,6 @@ exercise = Exercise(
                     "That C is singular says that there are more unstressed states, not how many.",
                     lambda C: np.minimum(null(C), 1),
                 ),
-                Mistake(
-                    "compared with zero exactly",
-                    "Rounding makes zero eigenvalues small, not zero, and of either sign: how small is zero here?",
-                    when=lambda given: (
-                        any(value < null(*C) for C, value in given) and all(value <= null(*C) for C, value in given)
-                    ),
-                ),
             ),
             hint="Which strains does C map to zero? Mind rounding: an eigenvalue of 1e-16 stands for zero.",
         ),
@@ -206,5 +199,4 @@ PROOFS = {
     "unstressed: rank for nullity": (RANK, RANK.removeprefix("6 - ")),
     "unstressed: zeros on the diagonal counted": (RANK, "int(np.sum(np.diag(C) == 0))"),
     "unstressed: one for every singular matrix": (RANK, "int(np.linalg.matrix_rank(C, tol=1e-8) < 6)"),
-    "unstressed: compared with zero exactly": (RANK, "int(np.sum(np.linalg.eigvalsh(C) == 0))"),
 }
