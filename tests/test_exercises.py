@@ -4,14 +4,21 @@ import ast
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from rodlab.lab import course
-from rodlab.lab.taught import folder_of, taught
+from rodlab.lab.taught import folder_of, index, taught
 
 ROOT = Path(__file__).parents[1]
 TEACHER = sorted((ROOT / "exercises" / "teacher").glob("*.py"))
 FILES = {path.stem: path for path in TEACHER}
+
+
+def test_the_course_is_whole():
+    assert len(FILES) >= 24
+    assert course.names() == sorted(FILES)
+    assert (ROOT / "exercises" / "README.md").read_text() == index(ROOT / "exercises" / "teacher")
 
 
 def judged(name, source, seed=None):
@@ -51,6 +58,29 @@ def test_the_stub_has_no_points_and_says_so(name):
     assert report.score == 0.0
     assert {item.status for item in report.items} == {"unanswered"}
     assert all("is not answered yet" in item.sentence for item in report.items)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_students_notebook_runs_as_it_is(name):
+    cells = json.loads((ROOT / "exercises" / name / "answer.ipynb").read_text())["cells"]
+    names = {"__name__": "notebook"}
+    for cell in cells[1:]:
+        exec("".join(cell["source"]), names)
+
+
+TRIVIAL = {
+    "zero": lambda *_: 0, "one": lambda *_: 1, "its first argument": lambda *given: given[0] if given else 0,
+    "its last argument": lambda *given: given[-1] if given else 0, "zeros like its first argument": lambda *given: 0 * np.asarray(given[0]),
+    "the identity": lambda *given: np.eye(min(np.size(given[0]), 20)), "two zeros": lambda *_: (0, 0), "three ones": lambda *_: (1, 1, 1),
+    "True": lambda *_: True, "nothing": lambda *_: None, "no number": lambda *_: float("nan"), "a pair of ones": lambda *_: (1.0, 1.0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_answers_without_thought_are_not_worth_half(name):
+    for said, answer in TRIVIAL.items():
+        report = course.check(name, {q.name: answer for q in course.exercise(name).questions}, seed=2)
+        assert report.percent < 34.0, f"{said}: {report}"
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -151,6 +151,25 @@ def make_graded(path: Path, kind: str, out: Path | None = None) -> list[Path]:
     return [write_whole(folder / f"{found.name}.ipynb", notebook(found, found.reference, kind))]
 
 
+def index(teacher: Path) -> str:
+    """The exercises of a teacher's tree in the order of the notes: a README for the folder of folders."""
+    rows = []
+    for path in sorted(teacher.glob("*.py")):
+        found = taught(path)
+        source = re.search(r'source="([^"]*)"', found.checks)
+        functions = ", ".join(f"`{name}`" for name in re.findall(r"^def (\w+)", found.stub, re.MULTILINE))
+        title = found.statement.splitlines()[0].lstrip("# ")
+        rows.append((source[1] if source else "", f"[{found.name}]({found.name}/README.md)", title, functions))
+    lines = [f"| {' | '.join(row)} |" for row in sorted(rows)]
+    head = "| notes | exercise | about | write |\n|---|---|---|---|"
+    foot = (
+        "Answers are checked by `rodlab check FOLDER`, in a notebook by `rl.check(NAME, globals())`. Solutions are in `teacher`."
+    )
+    return f"# {len(rows)} exercises that check themselves\n\n{head}\n" + "\n".join(lines) + f"\n\n{foot}\n"
+
+
 if __name__ == "__main__":
-    for given in sys.argv[1:]:
-        make(Path(given))
+    for given in map(Path, sys.argv[1:]):
+        make(given)
+    for teacher in {Path(given).resolve().parent for given in sys.argv[1:]}:
+        write_whole(teacher.parent / "README.md", index(teacher))

@@ -1,0 +1,132 @@
+"""Checks of the exercise "The Darboux vector"; made from the teacher's file."""
+
+import numpy as np
+from scipy.linalg import expm
+
+from rodlab.grading.exercise import Exercise, Mistake, Question
+from rodlab.grading.properties import equals, holds
+from rodlab.grading.values import Array
+
+
+def turned(u):
+    """The rotation by the vector u."""
+    return expm(np.cross(np.eye(3), u))
+
+
+def triad(draw):
+    return turned(draw.normal(size=3)).T
+
+
+def moving(draw):
+    """A triad and its derivative, of a known vector in the fixed frame."""
+    d, w = triad(draw), draw.normal(size=3)
+    return d, np.array([np.cross(w, row) for row in d])
+
+
+def true_vector(d, d_prime):
+    """u = sum of d_i x d_i' / 2: no components of the triad are needed."""
+    return sum(np.cross(a, b) for a, b in zip(d, d_prime, strict=True)) / 2
+
+
+def rows(d, u):
+    return np.array([np.cross(np.asarray(u) @ d, row) for row in d])
+
+
+def not_turning(value, d, u):
+    """Along a turning triad of this strain, by a central difference of rotations."""
+    step = 1e-5
+    ahead, behind = (turned(sign * step * (np.asarray(u) @ d)) @ d.T for sign in (1, -1))
+    true = (ahead - behind).T / (2 * step)
+    return np.max(np.abs(value - true)) / np.max(np.abs(true))
+
+
+def moved(draw):
+    for _ in range(4):
+        yield moving(draw)
+
+
+def strained(draw):
+    for _ in range(4):
+        yield triad(draw), draw.normal(size=3)
+
+
+exercise = Exercise(
+    title="The Darboux vector",
+    source="N 2.2",
+    questions=(
+        Question(
+            name="strain",
+            calls=moved,
+            returns=Array((3,)),
+            properties=(
+                holds(
+                    "turns the triad as its derivative says",
+                    lambda u, d, dp: np.max(np.abs(rows(d, u) - dp)) / np.max(np.abs(dp)),
+                    1e-12,
+                    2.0,
+                ),
+            ),
+            mistakes=(
+                Mistake(
+                    "sign", "Put your u into u x d_i: does it give d_i' or its opposite?", lambda d, dp: -(d @ true_vector(d, dp))
+                ),
+                Mistake(
+                    "components in the fixed frame",
+                    "These are the components of u along the fixed frame. Along which vectors are u_1, u_2, u_3 asked for?",
+                    true_vector,
+                ),
+                Mistake(
+                    "counted twice",
+                    "The sum over j and k meets every pair twice: what factor stands before it?",
+                    lambda d, dp: 2 * (d @ true_vector(d, dp)),
+                ),
+                Mistake(
+                    "rows for columns",
+                    "The vectors d_i are the rows of d. Which of the two arrays is to be transposed?",
+                    lambda d, dp: d.T @ true_vector(d.T, dp.T),
+                ),
+                Mistake(
+                    "order of the components",
+                    "u_1 turns d_2 towards d_3: which entry of d_i' . d_j is it?",
+                    lambda d, dp: (d @ true_vector(d, dp))[::-1],
+                ),
+            ),
+            hint="d_i' . d_j is an entry of a skew matrix; three of its entries are the u_i.",
+        ),
+        Question(
+            name="darboux",
+            calls=moved,
+            returns=Array((3,)),
+            properties=(equals(true_vector, 1e-12, says="is the Darboux vector"),),
+            mistakes=(
+                Mistake(
+                    "components along the triad",
+                    "These are the u_i. The vector is the sum of u_i d_i.",
+                    lambda d, dp: d @ true_vector(d, dp),
+                ),
+                Mistake(
+                    "the triad applied the wrong way",
+                    "The sum of u_i d_i takes row i of d with u_i: is that d u or u d?",
+                    lambda d, dp: d @ d @ true_vector(d, dp),
+                ),
+            ),
+            hint="u is the sum of u_i d_i.",
+        ),
+        Question(
+            name="derivative",
+            calls=strained,
+            returns=Array((3, 3)),
+            properties=(holds("is the derivative of the turning triad", not_turning, 1e-8, 1.5),),
+            mistakes=(
+                Mistake("order of the cross product", "u x d_i, or d_i x u?", lambda d, u: -rows(d, u)),
+                Mistake(
+                    "components for the vector",
+                    "A cross product is of two vectors in one frame: u_i are components along the triad, the rows of d along the fixed frame.",
+                    lambda d, u: np.cross(u, d),
+                ),
+                Mistake("transposed", "One derivative a row.", lambda d, u: rows(d, u).T),
+            ),
+            hint="First the vector u in the fixed frame, then a cross product with each row.",
+        ),
+    ),
+)

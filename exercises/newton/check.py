@@ -1,0 +1,152 @@
+"""Checks of the exercise "Newton's method"; made from the teacher's file."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from rodlab.grading.exercise import Exercise, Mistake, Question
+from rodlab.grading.plain import Code
+from rodlab.grading.properties import equals, holds
+from rodlab.grading.values import Array, Number
+
+
+def two(draw):
+    """Two imperfect joints that are pulled aside by a follower: an unsymmetric Jacobian, with a regular root near the start."""
+    a, b, c = draw.uniform(0.3, 0.5), draw.uniform(0.1, 0.2), draw.uniform(0.4, 0.6)
+    f = Code(
+        f"lambda z: np.array([2*z[0] - z[1] - {a!r}*np.sin(z[0] - z[1]) - {b!r}, z[1] - z[0] - {c!r}*np.sin(z[1]) + z[0]**2 - {b!r}])"
+    )
+    J = Code(
+        f"lambda z: np.array([[2 - {a!r}*np.cos(z[0] - z[1]), -1 + {a!r}*np.cos(z[0] - z[1])],"
+        f" [-1 + 2*z[0], 1 - {c!r}*np.cos(z[1])]])"
+    )
+    return f, J, draw.uniform(0.3, 0.5, size=2), 6
+
+
+def problems(draw):
+    yield two(draw)
+    start = draw.uniform(0.5, 1.5, size=1)  # one joint at its buckling load
+    yield Code("lambda z: z - np.sin(z)"), Code("lambda z: np.diag(1 - np.cos(z))"), start, 9
+    n, load = 4, draw.uniform(1.0, 2.0)
+    T = f"(2*np.eye({n}) - np.eye({n}, k=1) - np.eye({n}, k=-1))"
+    f, J = f"lambda z: {T} @ z + {load!r}*z**3 - 1", f"lambda z: {T} + 3*{load!r}*np.diag(z**2)"
+    yield Code(f), Code(J), draw.uniform(0.5, 1.0, size=n), 5
+
+
+def defect(z, f, J, start, steps):
+    """How far each row is from solving the linear equation for it, relative to the first step."""
+    left = [J(a) @ (b - a) + f(a) for a, b in pairwise(z)]
+    return np.max(np.abs(left)) / min(1.0, np.max(np.abs(f(start))))
+
+
+def converged(z, f, J, start, steps):
+    """To rounding where the root is regular; in the ratio 2/3 where it is threefold."""
+    return abs(z[-1, 0] / z[-2, 0] - 2 / 3) if start.size == 1 else 1e6 * np.max(np.abs(f(z[-1])))
+
+
+def variant(f, J, z, steps, *, sign=-1.0, transposed=False, frozen=False):
+    rows, first = [z], J(z)
+    for _ in range(steps):
+        A = first if frozen else J(rows[-1])
+        rows.append(rows[-1] + sign * np.linalg.inv(A.T if transposed else A) @ f(rows[-1]))
+    return np.array(rows)
+
+
+def begins(**wrong):
+    """True of iterates that begin as those of a mistake; later ones may run away."""
+
+    def alike(given):
+        return all(np.allclose(np.array(v)[:3], variant(*a, **wrong)[:3], rtol=1e-8) for a, v in given)
+
+    return alike
+
+
+def errors(draw):
+    for p in (1.0, 2.0, 1.618, 3.0):
+        e, C, found = draw.uniform(0.01, 0.1), draw.uniform(0.2, 0.6), []
+        for _ in range(4):
+            found.append(e)
+            e = C * e**p
+        yield (np.array(found),)
+
+
+def slope(e):
+    return np.polyfit(np.log(e[-3:-1]), np.log(e[-2:]), 1)[0]
+
+
+def multiplicities(draw):
+    yield from ((m,) for m in (2, 3, 4, 7))
+
+
+def watched(m):
+    """By doing it: one step for f(z) = z^m from z = 1."""
+    return 1.0 - 1.0**m / (m * 1.0 ** (m - 1))
+
+
+exercise = Exercise(
+    title="Newton's method",
+    source="N 2.7",
+    questions=(
+        Question(
+            name="newton",
+            calls=problems,
+            returns=Array(lambda f, J, z, steps: (steps + 1, z.size)),
+            properties=(
+                holds(
+                    "begins with the start",
+                    lambda z, f, J, start, steps: np.max(np.abs(z[0] - start)) + (z[1:] == start).all(),
+                    1e-14,
+                    0.5,
+                ),
+                holds("solves the linear equation in every step", defect, 1e-10, 1.5),
+                holds("converges: to rounding, or in the ratio 2/3 at a threefold root", converged, 0.01),
+            ),
+            mistakes=(
+                Mistake("step in the wrong direction", "What has f(z) + J w to be after the step?", when=begins(sign=1.0)),
+                Mistake(
+                    "transposed Jacobian",
+                    "Row i of the Jacobian belongs to which: equation i or unknown i?",
+                    when=begins(transposed=True),
+                ),
+                Mistake(
+                    "Jacobian of the start",
+                    "Your steps are those of the chord method, of first order. Where is J taken?",
+                    when=begins(frozen=True),
+                ),
+                Mistake("start left out", "The first row is the start itself.", lambda *given: variant(*given)[1:]),
+            ),
+            hint="A loop: solve a linear system, add its solution, keep the result.",
+        ),
+        Question(
+            name="order",
+            calls=errors,
+            returns=Number(),
+            properties=(equals(slope, 1e-8, says="is the slope of log e_{k+1} against log e_k"),),
+            mistakes=(
+                Mistake(
+                    "constant not eliminated",
+                    "log e_{k+1} = p log e_k + log C: two such equations are needed to be rid of C.",
+                    lambda e: np.log(e[-1]) / np.log(e[-2]),
+                ),
+                Mistake("ratio upside down", "Try errors 1e-1, 1e-2, 1e-4: the order is 2.", lambda e: 1 / slope(e)),
+            ),
+            hint="Take logarithms of both equations and eliminate C.",
+        ),
+        Question(
+            name="ratio",
+            calls=multiplicities,
+            returns=Number(),
+            properties=(equals(watched, 1e-3, says="is the ratio that the iterates show"),),
+            mistakes=(
+                Mistake("one over m", "That is the part of the error that a step removes. What is left?", lambda m: 1 / m),
+                Mistake(
+                    "multiplicity less one",
+                    "For m = 1 convergence is quadratic: what is the limit of the ratio then?",
+                    lambda m: m / (m + 1),
+                ),
+                Mistake("always two thirds", "That is the ratio at a threefold root.", lambda m: 2 / 3),
+            ),
+            hint="Let f(z) = z^m and do one step from any z.",
+        ),
+    ),
+)

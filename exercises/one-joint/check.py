@@ -1,0 +1,134 @@
+"""Checks of the exercise "One joint"; made from the teacher's file."""
+
+import numpy as np
+
+from rodlab.grading.exercise import Exercise, Mistake, Question
+from rodlab.grading.properties import STEP, equals, holds
+from rodlab.grading.values import Array, Number
+
+
+def moment(phi, lam, beta):
+    return phi - beta - lam * np.sin(phi)
+
+
+def balanced(phi, beta):
+    """The load at which the moments balance: they are linear in it."""
+    unloaded, unit = moment(phi, 0.0, beta), moment(phi, 1.0, beta)
+    return unloaded / (unloaded - unit)
+
+
+def second(phi, beta):
+    return np.imag(moment(phi + 1j * STEP, balanced(phi, beta), beta)) / STEP
+
+
+def angle(lam):
+    """By bisection: the load of an angle grows from 1 to infinity between 0 and pi."""
+    low, high = 0.0, np.pi
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (low, middle) if balanced(middle, 0.0) > lam else (middle, high)
+    return (low + high) / 2
+
+
+def angles(draw):
+    for between in ((0.3, 1.2), (-1.2, -0.3), (1.9, 2.8), (3.6, 5.0)):
+        yield draw.uniform(*between), draw.choice([-1, 1]) * draw.uniform(0.05, 0.2)
+
+
+def nothing(draw):
+    yield ()
+
+
+def loads(draw):
+    for between in ((1.001, 1.01), (1.2, 2.0), (3.0, 20.0)):
+        yield (draw.uniform(*between),)
+
+
+exercise = Exercise(
+    title="One joint",
+    source="N 2.7",
+    imports=("numpy", "scipy.optimize"),
+    questions=(
+        Question(
+            name="load",
+            calls=angles,
+            returns=Number(),
+            properties=(holds("balances the moments", lambda lam, phi, beta: abs(moment(phi, lam, beta)), 1e-10),),
+            mistakes=(
+                Mistake("rest angle forgotten", "At which angle is the spring at rest?", lambda phi, beta: phi / np.sin(phi)),
+            ),
+            hint="Set the derivative of V to zero; it is linear in lam.",
+        ),
+        Question(
+            name="hessian",
+            calls=angles,
+            returns=Number(),
+            properties=(equals(second, 1e-10, says="is the derivative of the moment at a fixed load (complex step)"),),
+            mistakes=(
+                Mistake(
+                    "load eliminated before differentiating",
+                    "The load is held fixed while the angle is varied. Put load(phi, beta) in only after the second derivative is taken.",
+                    lambda phi, beta: 0.0,
+                    within=1e-4,
+                ),
+                Mistake(
+                    "softening with the wrong sign",
+                    "Differentiate lam cos(phi) twice: does pressing make the straight strut stiffer or softer?",
+                    lambda phi, beta: 2 - second(phi, beta),
+                ),
+                Mistake(
+                    "load of the perfect strut",
+                    "Which load holds the imperfect strut at this angle? Use load with both of its arguments.",
+                    lambda phi, beta: 1 - phi / np.tan(phi),
+                ),
+            ),
+            hint="Differentiate V twice at a fixed load, then put in the load of this equilibrium.",
+        ),
+        Question(
+            name="coefficients",
+            calls=nothing,
+            returns=Array((2,)),
+            properties=(
+                holds("has the coefficient of phi^2", lambda found: abs(found[0] - (balanced(1e-3, 0.0) - 1) / 1e-6), 1e-6),
+                holds(
+                    "has the coefficient of phi^4 (what the first leaves)",
+                    lambda found: abs(found[1] - ((balanced(0.02, 0.0) - 1) / 4e-4 - 1 / 6) / 4e-4) + 100 * abs(found[0] - 1 / 6),
+                    1e-5,
+                ),
+            ),
+            mistakes=(
+                Mistake(
+                    "inverse series",
+                    "Does the load rise along the branch? Compare with load(0.5, 0).",
+                    lambda: np.array([-1 / 6, 1 / 120]),
+                ),
+                Mistake(
+                    "product of the first order forgotten",
+                    "Inverting a series to fourth order, the square of its second order term contributes too.",
+                    lambda: np.array([1 / 6, -1 / 120]),
+                ),
+            ),
+            hint="Insert the Taylor series of the sine to the order phi^5 and divide.",
+        ),
+        Question(
+            name="buckled",
+            calls=loads,
+            returns=Number(),
+            properties=(equals(angle, 1e-7, says="is the angle that bisection finds", points=2.0),),
+            mistakes=(
+                Mistake(
+                    "straight strut",
+                    "Zero is an equilibrium at every load. Keep your solver away from it: where does phi - lam sin(phi) turn?",
+                    lambda lam: 0.0,
+                    within=1e-5,
+                ),
+                Mistake(
+                    "first terms of the series",
+                    "The series holds near lam = 1 only. Use its angle as a first guess and solve the equation.",
+                    lambda lam: np.sqrt(6 * (lam - 1)),
+                ),
+            ),
+            hint="Enclose the root: phi - lam sin(phi) is negative just above zero and positive at pi.",
+        ),
+    ),
+)

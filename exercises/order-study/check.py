@@ -1,0 +1,147 @@
+"""Checks of the exercise "A study of order"; made from the teacher's file."""
+
+import numpy as np
+
+from rodlab.grading.exercise import Exercise, Mistake, Question
+from rodlab.grading.properties import equals
+from rodlab.grading.values import Array, Number
+
+
+def sizes(draw, length):
+    """A sequence of n with ratios between 1.4 and 2.6, none of them two."""
+    ratios = np.where(draw.random(length) < 0.5, draw.uniform(1.4, 1.8, size=length), draw.uniform(2.2, 2.6, size=length))
+    return np.round(50 * np.cumprod(ratios))
+
+
+def slopes(n, errors):
+    """Each by a straight line through two points."""
+    return np.array([-np.polyfit(np.log(n[i : i + 2]), np.log(np.abs(errors[i : i + 2])), 1)[0] for i in range(len(n) - 1)])
+
+
+def limits(n, values, p):
+    """v and C from two linear equations, in units in which both unknowns are of the same size."""
+    pairs = ((n[i : i + 2], values[i : i + 2]) for i in range(len(n) - 1))
+    return np.array([np.linalg.solve(np.array([[1.0, 1.0], [1.0, (m[0] / m[1]) ** p]]), v)[0] for m, v in pairs])
+
+
+def error_lists(draw):
+    for p in (1, 2, 4):
+        n = sizes(draw, 4)
+        yield n, draw.uniform(1, 3) * draw.choice([-1.0, 1.0], size=4) * n**-p * (1 + draw.uniform(2, 9) / n)
+
+
+def value_lists(draw):
+    for p in (1, 2, 4):
+        n = sizes(draw, 4)
+        yield n / 10, draw.uniform(1, 3) + draw.uniform(20, 40) * (n / 10.0) ** -p * (1 + draw.uniform(0.2, 0.5) / n), p
+
+
+def floors(draw):
+    """Errors of order p that at a place meet a floor of rounding which grows; behind it one order is p by chance."""
+    for p, good in ((2, 4), (4, 2), (1, 1), (2, 6)):
+        n = sizes(draw, good + 5)
+        errors = np.append(draw.uniform(1, 3) * n[:good] ** -p, np.zeros(5))
+        for i, step in enumerate((0.4, 0.3, -1.0, p, -2.0), good):
+            errors[i] = errors[i - 1] * (n[i] / n[i - 1]) ** -step
+        yield n, errors * draw.choice([-1.0, 1.0], size=n.size), p, 0.2
+
+
+def prefix(n, errors, p, within):
+    """The longest beginning all of whose orders are near p."""
+    return max(m for m in range(1, len(n) + 1) if np.all(np.abs(slopes(n[:m], errors[:m]) - p) <= within))
+
+
+def two(n):
+    return 2.0 ** np.arange(len(n))
+
+
+exercise = Exercise(
+    title="A study of order",
+    source="N 2.8",
+    questions=(
+        Question(
+            name="orders",
+            calls=error_lists,
+            returns=Array(lambda n, errors: (n.size - 1,)),
+            properties=(equals(slopes, 1e-9, says="are the slopes in a plot of logarithms"),),
+            mistakes=(
+                Mistake("sign", "The errors fall, and an order is positive.", lambda n, e: -slopes(n, e)),
+                Mistake(
+                    "ratio two assumed",
+                    "Is every n twice the one before? A logarithm to the base two is right then only.",
+                    lambda n, e: slopes(two(n), e),
+                ),
+                Mistake(
+                    "upside down",
+                    "An error that falls by four when n doubles is of order two, not one half.",
+                    lambda n, e: 1 / slopes(n, e),
+                ),
+                Mistake(
+                    "ratios without logarithms",
+                    "Powers become factors only after taking logarithms.",
+                    lambda n, e: np.abs(e[:-1] / e[1:]) / (n[1:] / n[:-1]),
+                ),
+            ),
+            hint="Take logarithms of sizes of errors and of n; an order is a slope.",
+        ),
+        Question(
+            name="extrapolated",
+            calls=value_lists,
+            returns=Array(lambda n, values, p: (n.size - 1,)),
+            properties=(equals(limits, 1e-11, says="solve the two equations", points=1.5),),
+            mistakes=(
+                Mistake(
+                    "coarse for fine",
+                    "The finer value is nearer to the limit; your extrapolation leads away from it.",
+                    lambda n, v, p: v[:-1] - (v[1:] - v[:-1]) / ((n[1:] / n[:-1]) ** p - 1),
+                ),
+                Mistake(
+                    "ratio two assumed",
+                    "The formula with 2^p, and for p = 2 with 4 and 3, is for doubled n.",
+                    lambda n, v, p: limits(two(n), v, p),
+                ),
+                Mistake(
+                    "order one assumed",
+                    "How strongly an error shrinks from one n to the next depends on p.",
+                    lambda n, v, p: limits(n, v, 1),
+                ),
+                Mistake(
+                    "minus one forgotten",
+                    "Also the finer value has an error: eliminate C exactly.",
+                    lambda n, v, p: v[1:] + (v[1:] - v[:-1]) / (n[1:] / n[:-1]) ** p,
+                ),
+                Mistake("mean", "The limit is not between the two values.", lambda n, v, p: (v[1:] + v[:-1]) / 2),
+            ),
+            hint="Two equations v_i = v + C n_i^(-p): eliminate C.",
+        ),
+        Question(
+            name="trusted",
+            calls=floors,
+            returns=Number(whole=True),
+            properties=(equals(prefix, 0.0, says="counts the errors before the floor", points=1.5),),
+            mistakes=(
+                Mistake(
+                    "orders counted",
+                    "Two errors make one order: how many errors make three?",
+                    lambda *given: prefix(*given) - 1,
+                ),
+                Mistake(
+                    "later ones counted too",
+                    "Behind the floor an order can be p by chance; where do you stop counting?",
+                    lambda n, e, p, within: 1 + int(np.sum(np.abs(slopes(n, e) - p) <= within)),
+                ),
+                Mistake(
+                    "as long as errors fall",
+                    "On the floor errors may still fall a little. Compare orders with p, not errors with each other.",
+                    lambda n, e, p, within: 1 + int(np.argmax(np.append(slopes(n, e) < 0, True))),
+                ),
+                Mistake(
+                    "up to the last good one",
+                    "A chance hit after the floor must not carry you over it.",
+                    lambda n, e, p, within: 2 + int(np.flatnonzero(np.abs(slopes(n, e) - p) <= within)[-1]),
+                ),
+            ),
+            hint="Walk along the observed orders and stop at the first that is off.",
+        ),
+    ),
+)

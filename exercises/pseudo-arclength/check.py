@@ -1,0 +1,168 @@
+"""Checks of the exercise "Through a fold by pseudo-arclength"; made from the teacher's file."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from rodlab.grading.exercise import Exercise, Mistake, Question
+from rodlab.grading.properties import complex_step, equals, holds
+from rodlab.grading.values import Array
+
+
+def f(x, beta=0.0):
+    return x[0] - beta - x[1] * np.sin(x[0])
+
+
+def along(phi, lam, previous):
+    normal = complex_step(f, np.array([phi, lam]))
+    t = np.array([-normal[1], normal[0]]) / np.hypot(*normal)
+    return t * np.sign(t @ previous)
+
+
+def load(phi, beta):
+    return (phi - beta) / np.sin(phi)
+
+
+def points(draw):
+    """Points of detached branches on both sides of their folds; both tangents of each occur."""
+    for side, between in ((1, (0.1, 0.25)), (-1, (0.1, 0.25)), (1, (0.9, 1.5)), (-1, (0.9, 1.5))):
+        phi = -draw.uniform(*between)
+        lam = load(phi, draw.uniform(0.05, 0.1))
+        yield phi, lam, along(phi, lam, np.array([0.0, side])) + draw.uniform(-0.2, 0.2, size=2)
+
+
+def steps(draw):
+    for between in ((0.2, 0.3), (0.45, 0.6), (1.0, 1.4)):
+        phi, beta = -draw.uniform(*between), draw.uniform(0.05, 0.1)
+        lam = load(phi, beta)
+        yield phi, lam, beta, along(phi, lam, np.array([-1.0, 0.0])), draw.uniform(0.1, 0.2)
+
+
+def starts(draw):
+    for _ in range(2):
+        beta = draw.uniform(0.05, 0.1)
+        phi = -draw.uniform(1.0, 1.3) * beta
+        yield phi, load(phi, beta), beta, np.array([0.0, -1.0]), draw.uniform(0.12, 0.16), 16
+
+
+def off_curve(x, start, beta, length):
+    """The residual, of a point that is not the start itself and not far away."""
+    away = np.hypot(*np.subtract(x, start))
+    return abs(f(x, beta)) if length / 2 < away < 3 * length else np.nan
+
+
+def off_curves(rows, phi, lam, beta, direction, length, count):
+    return max(off_curve(b, a, beta, length) for a, b in pairwise(rows)) + np.max(np.abs(rows[0] - (phi, lam)))
+
+
+def off_planes(rows, phi, lam, beta, direction, length, count):
+    far, t = 0.0, direction
+    for a, b in pairwise(rows):
+        t = along(*a, t)
+        far = max(far, abs(t @ (b - a) - length))
+    return far
+
+
+def through(rows, *given):
+    """On the curve the angle goes on while the load turns: 0 if so."""
+    loads = rows[:, 1]
+    turned = loads.min() < min(loads[0], loads[-1]) - 0.2
+    return float(not (np.all(np.diff(rows[:, 0]) < 0) and turned and off_curves(rows, *given) < 1e-6))
+
+
+def always(equation):
+    """True of values that all satisfy an equation of the point, the start, the tangent and the length."""
+    return lambda given: all(abs(equation(np.array(v), np.array(a[:2]), a[3], a[4])) < 1e-8 for a, v in given)
+
+
+def unoriented(given):
+    rows = [(np.array(v), along(*a)) for a, v in given]
+    return all(abs(abs(v @ t) - 1) < 1e-9 and abs(v @ v - 1) < 1e-9 for v, t in rows)
+
+
+def turned_back(given):
+    return all(off_curves(np.array(v), *a) < 1e-8 and np.any(np.diff(np.array(v)[:, 0]) > 0) for a, v in given)
+
+
+exercise = Exercise(
+    title="Through a fold by pseudo-arclength",
+    source="N 2.7",
+    questions=(
+        Question(
+            name="tangent",
+            calls=points,
+            returns=Array((2,)),
+            properties=(equals(along, 1e-9, says="is normal to the gradient (complex step), of length one, and goes on"),),
+            mistakes=(
+                Mistake("direction not kept", "Look at the sign of the product with the tangent before.", when=unoriented),
+                Mistake(
+                    "normal for tangent",
+                    "The gradient of f is normal to the curve f = 0.",
+                    lambda phi, lam, t: (lambda n: n / np.hypot(*n) * np.sign(n @ t))(complex_step(f, np.array([phi, lam]))),
+                ),
+                Mistake(
+                    "length not one",
+                    "Your vector has the right direction. How long is it?",
+                    when=lambda given: all(abs(np.array(v) @ along(*a) / np.hypot(*v) - 1) < 1e-9 for a, v in given),
+                ),
+            ),
+            hint="The gradient of f has two components; exchange them and change one sign.",
+        ),
+        Question(
+            name="step",
+            calls=steps,
+            returns=Array((2,)),
+            properties=(
+                holds("is on the curve", lambda x, phi, lam, beta, t, length: off_curve(x, (phi, lam), beta, length), 1e-9),
+                holds(
+                    "is at the length along the tangent",
+                    lambda x, phi, lam, beta, t, length: abs(t @ (x - (phi, lam)) - length),
+                    1e-9,
+                ),
+            ),
+            mistakes=(
+                Mistake(
+                    "predictor only",
+                    "You went along the tangent; how far from the curve are you?",
+                    lambda phi, lam, beta, t, length: np.array([phi, lam]) + length * t,
+                ),
+                Mistake(
+                    "corrected at a fixed load",
+                    "Your corrector moves the angle alone, and would fail near the fold. Which is the second equation?",
+                    when=always(lambda x, start, t, length: x[1] - start[1] - length * t[1]),
+                ),
+                Mistake(
+                    "distance for projection",
+                    "The second equation is linear: the projection of the step onto the tangent has the given length.",
+                    when=always(lambda x, start, t, length: np.hypot(*(x - start)) - length),
+                ),
+            ),
+            hint="Newton's method for two unknowns; the second row of the Jacobian is t.",
+        ),
+        Question(
+            name="branch",
+            calls=starts,
+            returns=Array(lambda phi, lam, beta, t, length, count: (count + 1, 2)),
+            properties=(
+                holds("begins at the start and stays on the curve", off_curves, 1e-8),
+                holds("goes on by the length along each tangent", off_planes, 1e-8),
+                holds("passes the fold", through, 0.0),
+            ),
+            mistakes=(
+                Mistake(
+                    "turned back at the fold",
+                    "Behind the fold the load rises again: by what do you orient the tangent there?",
+                    when=turned_back,
+                ),
+                Mistake(
+                    "load prescribed",
+                    "Your loads are equally spaced. What equilibria are there below the load of the fold?",
+                    when=lambda given: all(
+                        np.ptp(np.diff(np.array(v)[:, 1]) / a[4]) < 1e-9 < v[0][1] - v[1][1] for a, v in given
+                    ),
+                ),
+            ),
+            hint="A loop over the first two functions; keep the last tangent.",
+        ),
+    ),
+)

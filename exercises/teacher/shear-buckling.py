@@ -1,0 +1,224 @@
+r"""# Buckling with shear and compression
+
+A straight uniform strut, $K = 1$, length 1, clamped below and free above, that can shear (stiffness $A_1$) and be compressed ($A_3$)
+is singular at the load $\lambda$ in its $j$-th mode [N 2.8, exercise, and 2.8.1], $j = 1, 2, \dots$, if
+
+$$\lambda \Bigl( 1 + \lambda \Bigl( \frac{1}{A_1} - \frac{1}{A_3} \Bigr) \Bigr) = P_j = \frac{(2j-1)^2 \pi^2}{4},$$
+
+where $P_j$ is Euler's load. A stiffness may be infinite (`np.inf`): the rod then does not give way in that direction. Shear brings buckling
+forward; compression shortens the rod, puts it off, and may even prevent it.
+
+**Write**
+
+1. `buckles(j, A_1, A_3)`, `True` if the equation has a positive root for this mode, `False` otherwise;
+2. `load(j, A_1, A_3)`, where it has, its smallest positive root, one number. It is to be correct to nearly all digits also where
+   $A_1$ and $A_3$ are nearly or exactly the same;
+3. `least_stiffness(j)`, for an unshearable rod ($A_1 = \infty$) the smallest $A_3$ at which mode $j$ still has a load.
+"""
+
+# %% answer
+import numpy as np
+
+
+def buckles(j, A_1, A_3):
+    """True if mode j has a positive load."""
+    ### BEGIN SOLUTION
+    P = (2 * j - 1) ** 2 * np.pi**2 / 4
+    a = 1 / A_1 - 1 / A_3
+    return bool(1 + 4 * a * P >= 0)
+    ### END SOLUTION
+
+
+def load(j, A_1, A_3):
+    """The smallest positive load of mode j, a number; only asked for where there is one."""
+    ### BEGIN SOLUTION
+    P = (2 * j - 1) ** 2 * np.pi**2 / 4
+    a = 1 / A_1 - 1 / A_3
+    root = np.sqrt(1 + 4 * a * P)
+    return 2 * P / (1 + root)  # a sum of two positive numbers loses no digits
+    ### END SOLUTION
+
+
+def least_stiffness(j):
+    """The smallest A_3 for which an unshearable rod has a load of mode j, a number."""
+    ### BEGIN SOLUTION
+    return (2 * j - 1) ** 2 * np.pi**2
+    ### END SOLUTION
+
+
+# %% checks
+import numpy as np
+
+from rodlab.grading.exercise import Exercise, Mistake, Question
+from rodlab.grading.properties import equals, holds
+from rodlab.grading.values import Number, Truth
+
+
+def euler(j):
+    return np.square((j - 0.5) * np.pi)
+
+
+def gain(A_1, A_3):
+    return (A_3 - A_1) / A_1 / A_3 if np.isfinite(A_1 * A_3) else 1 / A_1 - 1 / A_3
+
+
+def left(lam, A_1, A_3):
+    return lam * (1 + lam * gain(A_1, A_3))
+
+
+def largest(A_1, A_3):
+    """The largest value of the equation's left side over all positive loads."""
+    a = gain(A_1, A_3)
+    return np.inf if a >= 0 else left(-0.5 / a, A_1, A_3)
+
+
+def has_load(j, A_1, A_3):
+    return bool(largest(A_1, A_3) >= euler(j))
+
+
+def root(j, A_1, A_3, *, P=None):
+    """The smallest positive root by Newton's method, from that side where the curvature makes it monotone."""
+    P, a = euler(j) if P is None else P, gain(A_1, A_3)
+    lam = 0.0 if a < 0 else P
+    for _ in range(60):
+        lam -= (lam * (1 + lam * a) - P) / (1 + 2 * lam * a)
+    return lam
+
+
+def other_root(j, A_1, A_3):
+    a = gain(A_1, A_3)
+    return -1 / a - root(j, A_1, A_3)
+
+
+def questions(draw):
+    for j in (1, 2, 3):
+        P = euler(j)
+        yield j, np.inf, P * draw.uniform(1.5, 3.7)
+        yield j, np.inf, P * draw.uniform(4.3, 9)
+        yield j, P * draw.uniform(0.2, 0.9), P * draw.uniform(1.2, 3.8)
+        yield j, P * draw.uniform(5, 7), P * draw.uniform(1.1, 2)
+
+
+def stiffnesses(draw):
+    yield 1, 17.0, 17.0
+    for j in (1, 2, 3):
+        P = euler(j)
+        yield j, P * draw.uniform(4.3, 7), np.inf
+        yield j, np.inf, P * draw.uniform(4.5, 9)
+        yield j, P * draw.uniform(4, 6), P * draw.uniform(8, 12)
+        A_1 = P * draw.uniform(5, 6)
+        yield j, A_1, A_1 * (1 + 1e-9 * draw.uniform(1, 2))
+
+
+def modes(draw):
+    for j in (1, 2, 3, 4):
+        yield (j,)
+
+
+def near(A_1, A_3):
+    return abs(A_1 - A_3) < 1e-6 * A_1 or A_1 == A_3
+
+
+def off_equation(lam, j, A_1, A_3):
+    return abs(left(lam, A_1, A_3) / euler(j) - 1)
+
+
+def digits_lost(given):
+    off = [off_equation(float(lam), *arguments) for arguments, lam in given]
+    return 1e-12 < max(off) < 1e-3 and all(x < 1e-12 for x, (a, _) in zip(off, given, strict=True) if not near(a[1], a[2]))
+
+
+def the_other(given):
+    apart = [(arguments, lam) for arguments, lam in given if not near(*arguments[1:])]
+    return all(abs(lam / other_root(*arguments) - 1) < 1e-6 for arguments, lam in apart)
+
+
+exercise = Exercise(
+    title="Buckling with shear and compression",
+    source="N 2.8",
+    questions=(
+        Question(
+            name="buckles",
+            calls=questions,
+            returns=Truth(),
+            properties=(equals(has_load, 0.0, says="says whether there is a load"),),
+            mistakes=(
+                Mistake(
+                    "A_1 and A_3 interchanged",
+                    "A rod that shears easily buckles early: can a small A_1 prevent buckling?",
+                    lambda j, A_1, A_3: has_load(j, A_3, A_1),
+                ),
+                Mistake(
+                    "compression always prevents",
+                    "If the coefficient of lam^2 is negative, how large does the left side become at most?",
+                    lambda j, A_1, A_3: bool(gain(A_1, A_3) >= 0),
+                ),
+                Mistake("first mode only", "Higher modes have larger P_j: is there still a load?", lambda j, *A: has_load(1, *A)),
+            ),
+            hint="The left side is a parabola in lam through zero: where does it bend down, and how high does it come?",
+        ),
+        Question(
+            name="load",
+            calls=stiffnesses,
+            returns=Number(),
+            properties=(
+                holds("satisfies the equation", off_equation, 1e-8),
+                equals(root, 1e-8, says="is the smallest positive root"),
+                equals(root, 1e-13, says="is correct to nearly all digits", points=0.5),
+            ),
+            mistakes=(
+                Mistake(
+                    "j for 2j - 1",
+                    "One end is free: which waves have a horizontal tangent there? Compare P_2 with P_1.",
+                    lambda j, *A: root(j, *A, P=j**2 * np.pi**2 / 4),
+                ),
+                Mistake(
+                    "A_1 and A_3 interchanged",
+                    "Shear alone (A_3 infinite) must lower the load below Euler's.",
+                    lambda j, A_1, A_3: root(j, A_3, A_1),
+                ),
+                Mistake(
+                    "the other root",
+                    "A parabola has two roots. Which one tends to Euler's load as the stiffnesses grow?",
+                    when=the_other,
+                ),
+                Mistake("Euler's load", "This is the load of a rod that neither shears nor shortens.", lambda j, *A: euler(j)),
+                Mistake(
+                    "digits lost",
+                    "The root is right where A_1 and A_3 differ much. Where they hardly differ, two nearly equal numbers are subtracted.",
+                    when=digits_lost,
+                ),
+            ),
+            hint="Solve the quadratic; then ask which form of its root survives when the coefficient of lam^2 tends to zero.",
+        ),
+        Question(
+            name="least_stiffness",
+            calls=modes,
+            returns=Number(),
+            properties=(
+                equals(lambda j: 4 * euler(j), 1e-10, says="is where the load of an unshearable rod disappears", points=0.5),
+            ),
+            mistakes=(
+                Mistake("Euler's load itself", "At A_3 = P_j your rod would have to shrink to nothing before it buckles.", euler),
+                Mistake("half", "Where are the two roots the same? Look at the discriminant again.", lambda j: 2 * euler(j)),
+                Mistake("mode forgotten", "This is the answer for the first mode; P_j grows with j.", lambda j: 4 * euler(1)),
+            ),
+            hint="At the smallest stiffness the parabola just touches the height P_j.",
+        ),
+    ),
+)
+
+# %% proofs
+PROOFS = {
+    "buckles: A_1 and A_3 interchanged": ("return bool(1 + 4", "return bool(1 - 4"),
+    "buckles: compression always prevents": ("1 + 4 * a * P >= 0", "a >= 0"),
+    "buckles: first mode only": ("    return bool(1 + 4 * a * P >= 0)", "    return bool(1 + a * np.pi**2 >= 0)"),
+    "load: j for 2j - 1": ("2 * P / (1 + root)", "(j**2 * np.pi**2 / 2) / (1 + np.sqrt(1 + a * j**2 * np.pi**2))"),
+    "load: A_1 and A_3 interchanged": ("root = np.sqrt(1 + 4", "root = np.sqrt(1 - 4"),
+    "load: the other root": ("return 2 * P / (1 + root)  # a", "return np.inf if a == 0 else (-1 - root) / (2 * a)  # a"),
+    "load: Euler's load": ("2 * P / (1 + root)", "P"),
+    "load: digits lost": ("return 2 * P / (1 + root)  # a", "return P if a == 0 else (root - 1) / (2 * a)  # a"),
+    "least_stiffness: Euler's load itself": ("return (2 * j - 1) ** 2 * np.pi**2\n", "return (2 * j - 1) ** 2 * np.pi**2 / 4\n"),
+    "least_stiffness: half": ("return (2 * j - 1) ** 2 * np.pi**2\n", "return (2 * j - 1) ** 2 * np.pi**2 / 2\n"),
+    "least_stiffness: mode forgotten": ("return (2 * j - 1) ** 2 * np.pi**2\n", "return np.pi**2\n"),
+}
