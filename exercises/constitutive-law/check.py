@@ -133,13 +133,6 @@ exercise = Exercise(
                     "That C is singular says that there are more unstressed states, not how many.",
                     lambda C: np.minimum(null(C), 1),
                 ),
-                Mistake(
-                    "compared with zero exactly",
-                    "Rounding makes zero eigenvalues small, not zero, and of either sign: how small is zero here?",
-                    when=lambda given: (
-                        any(value < null(*C) for C, value in given) and all(value <= null(*C) for C, value in given)
-                    ),
-                ),
             ),
             hint="Which strains does C map to zero? Mind rounding: an eigenvalue of 1e-16 stands for zero.",
         ),
