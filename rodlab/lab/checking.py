@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from rodlab.files import write_whole
-from rodlab.lab.classroom import Watch, grade_class, summary
+from rodlab.lab.classroom import Watch, grade_class
 from rodlab.lab.course import check_paths, exercise, home, names
 from rodlab.lab.gradescope import of_report, results, unreadable
 from rodlab.lab.submissions import answers_in, named
 from rodlab.lab.table import table
+from rodlab.lab.tally import summary
 
 Answered = tuple[dict[str, Any], str, int]
 
@@ -56,7 +57,7 @@ def check_class(chosen: argparse.Namespace, watch: Watch) -> Answered:
         Path(chosen.folder), out, only=chosen.exercise, course=_course(chosen), seed=chosen.seed, jobs=_jobs(chosen), watch=watch,
     )  # fmt: skip
     written = [str(path) for path in found.write(out)]
-    columns, rows = summary(found)
+    columns, rows = summary(found.records)
     title = f"{len(found.records)} submissions of {len(found.students)} students"
     text = "\n".join([table(title, columns, rows), *(f"  {path}" for path in written)])
     kept = [{key: value for key, value in record.items() if key not in ("items", "hints", "title")} for record in found.records]

@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from rodlab.lab.classroom import frequent
 from rodlab.lab.picture import figure
+from rodlab.lab.tally import frequent
 
 STATES = {  # of a submission: its name, grey, hatch
     "right": ("all right", "0.25", ""),

@@ -13,7 +13,7 @@ Only this process writes, and each file whole. Times are in none of them: killed
 import hashlib
 import json
 import secrets
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
@@ -189,24 +189,3 @@ def _fingerprint(course: Path | None, seed: int) -> str:
 def _safe(value: Any) -> Any:
     """Text that a spreadsheet does not take for a formula."""
     return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t")) else value
-
-
-def summary(found: Class) -> tuple[Sequence[str], list[list[Any]]]:
-    """Exercise by exercise: how many handed in, all points, mean, and the most frequent classic mistake."""
-    rows: list[list[Any]] = []
-    for name in sorted({r["exercise"] for r in found.records}):
-        own = [r for r in found.records if r["exercise"] == name]
-        counts = frequent(own)
-        worst = f"{counts[0][0]} ({counts[0][1]})" if counts else None
-        mean = sum(r["percent"] for r in own) / len(own)
-        rows.append([name or "(no exercise)", len(own), sum(r["status"] == "right" for r in own), f"{mean:.0f} %", worst])
-    return ("exercise", "handed in", "all right", "mean", "most frequent mistake"), rows
-
-
-def frequent(records: Sequence[Mapping[str, Any]]) -> list[tuple[str, int]]:
-    """The classic mistakes of these records, the most frequent first."""
-    counts: dict[str, int] = {}
-    for record in records:
-        for name in filter(None, record["mistakes"].split("; ")):
-            counts[name] = counts.get(name, 0) + 1
-    return sorted(counts.items(), key=lambda entry: (-entry[1], entry[0]))

@@ -157,7 +157,9 @@ def index(teacher: Path) -> str:
     for path in sorted(teacher.glob("*.py")):
         found = taught(path)
         source = re.search(r'source="([^"]*)"', found.checks)
-        functions = ", ".join(f"`{name}`" for name in re.findall(r"^def (\w+)", found.stub, re.MULTILINE))
+        functions = ", ".join(
+            f"`{node.name}`" for node in ast.parse(found.stub).body if isinstance(node, ast.FunctionDef) and _open(node)
+        )
         title = found.statement.splitlines()[0].lstrip("# ")
         rows.append((source[1] if source else "", f"[{found.name}]({found.name}/README.md)", title, functions))
     lines = [f"| {' | '.join(row)} |" for row in sorted(rows)]
@@ -166,6 +168,11 @@ def index(teacher: Path) -> str:
         "Answers are checked by `rodlab check FOLDER`, in a notebook by `rl.check(NAME, globals())`. Solutions are in `teacher`."
     )
     return f"# {len(rows)} exercises that check themselves\n\n{head}\n" + "\n".join(lines) + f"\n\n{foot}\n"
+
+
+def _open(function: ast.FunctionDef) -> bool:
+    """True if it is still to be written."""
+    return any(isinstance(node, ast.Raise) for node in function.body)
 
 
 if __name__ == "__main__":
