@@ -9,8 +9,8 @@ $m' + t \times n = 0$, where $m' = w \times m$ as the components of $m$ in the t
 
 By symmetry the end force and end moment of a helix are a wrench along its axis. **Write**
 
-1. `force(kappa, tau, u3, K1, K3)`: components $(n_\nu, n_b, n_t)$ of the force, shape (3,), in units of $K/\text{length}^2$, with $n$ parallel to the axis;
-2. `axial_force(kappa, tau, u3, K1, K3)`: the force along the axis $w/|w|$, a number, positive in tension;
+1. `force(kappa, tau, u3, K1, K3)`: components $(n_\nu, n_b, n_t)$ of the force, shape (3,), with $n$ parallel to the axis;
+2. `axial_force(kappa, tau, u3, K1, K3)`: the component of the force along $w/|w|$, a number (for $\tau > 0$, tension is positive);
 3. `axial_moment(kappa, tau, u3, K1, K3)`: the component of $m$ along the axis, a number.
 """
 
