@@ -104,7 +104,7 @@ def shifts(draw):
             values = spectrum(diagonal, beside)
             for c in range(n // 2 + 1, n):
                 x = (values[c - 1] + values[c]) / 2
-                if values[c] - values[c - 1] > 0.01 and np.sum(diagonal < x) != c != n - n // 4:
+                if values[c] - values[c - 1] > 0.01 and np.sum(diagonal < x) not in (c, n - c, n // 4) and c != n - n // 4:
                     found.append(x)
         yield diagonal, beside, float(draw.choice(found))
 
