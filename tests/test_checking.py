@@ -2,6 +2,8 @@
 
 import csv
 import json
+import os
+import re
 import shutil
 import signal
 import sqlite3
@@ -21,7 +23,7 @@ from rodlab.cli import main
 from rodlab.grading.sandbox import Limits
 from rodlab.lab.class_picture import class_picture
 from rodlab.lab.classroom import grade_class
-from rodlab.lab.course import exercise
+from rodlab.lab.course import check_paths, exercise
 from rodlab.lab.submissions import read, submissions
 from rodlab.lab.taught import make, taught
 
@@ -79,6 +81,25 @@ def test_what_cannot_be_checked_is_said_in_a_sentence(call, sentence):
         call()
 
 
+def test_what_an_answer_raises_is_one_line_without_addresses():
+    class Silent(Exception):
+        def __str__(self):
+            raise ValueError
+
+    def hessian(phi, lam):
+        raise ValueError("two\nlines", object())
+
+    def modes():
+        raise Silent
+
+    said = str(rl.check("two-joints", {"hessian": hessian, "modes": modes, "index": lambda lam: sys.exit(3)}))
+    assert "0x..." in said
+    assert len(said.splitlines()) == 5
+    assert "modes raises Silent" in said
+    assert "index raises SystemExit: 3" in said
+    assert "an array of complex numbers, of shape (2, 2)" in str(rl.check("two-joints", {"hessian": lambda *_: np.eye(2) + 0j}))
+
+
 def test_an_answer_cannot_change_what_it_is_asked_with():
     def hessian(phi, lam):
         phi *= 0.0
@@ -122,6 +143,11 @@ def test_the_stub_of_the_course_is_checked_by_its_folder(capsys):
         (["{}/two"], "it holds 2 such files of other names"),
         (["{}", "--exercise", "two"], "exercise must be one of the course's"),
         (["{}"], "does not say which exercise it answers"),
+        (["--seed", "3"], "--seed must be given with an ANSWER or --class"),
+        (["{}/answer.py", "--exercise", "two-joints", "--seed", "-1"], "seed must be at least 0; it is -1"),
+        (["--class", "{}", "--out", "{}/out", "--seed", "-1"], "seed must be at least 0; it is -1"),
+        (["{}/missing/two-joints"], "a submission must be a .py or .ipynb file"),
+        (["{}/empty", "--exercise", "two-joints"], "it holds no .py or .ipynb file"),
         (["{}", "--jobs", "2"], "--jobs must be given with --class only"),
         (["{}", "--exercises", "{}"], "--exercises must be a folder of exercises"),
         (["--class", "{}/none"], "class must be a folder of submissions"),
@@ -165,6 +191,15 @@ def test_gradescope_gets_its_file_with_hidden_tests_on_fresh_parameters(right, t
     assert "Two negative eigenvalues have a positive product" in found["output"]
 
 
+def test_gradescope_is_told_of_a_submission_that_cannot_be_told_from_others(tmp_path, capsys):
+    for name in ("mine.py", "notes.py"):
+        (tmp_path / name).write_text("x = 1")
+    out = tmp_path / "results.json"
+    assert main(["check", str(tmp_path), "--exercise", "two-joints", "--gradescope", str(out)]) == 2
+    assert "it holds 2 such files of other names" in capsys.readouterr().err
+    assert "it holds 2 such files of other names" in json.loads(out.read_text())["output"]
+
+
 def test_gradescope_is_told_of_a_submission_that_cannot_be_read(tmp_path, capsys):
     (tmp_path / "mine.py").write_bytes(b"\xff")
     out = tmp_path / "results.json"
@@ -188,6 +223,14 @@ def test_pytest_collects_answers_when_asked(right):
     assert "How many springs act on the last link?" in asked.stdout
 
 
+def test_pytest_says_what_cannot_be_read_in_a_sentence(right):
+    right.write_bytes(b"\xff")
+    run = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--exercises", str(right.parent)]
+    done = subprocess.run(run, capture_output=True, text=True, check=False, cwd=right.parent)
+    assert "answer.py must be a text in UTF-8; it is not" in done.stdout
+    assert "Traceback" not in done.stdout
+
+
 # --- submissions -------------------------------------------------------------------------------------------------------------
 
 
@@ -200,6 +243,38 @@ def test_a_notebook_is_read_without_its_magic_and_its_checks(tmp_path):
     path = tmp_path / "two-joints.ipynb"
     path.write_text(json.dumps(content))
     assert read(path) == "import numpy as np\nx = 1"
+
+
+@pytest.mark.parametrize(
+    ("cells", "found"),
+    [
+        (["%%bash\nls -l | wc", "x = 1"], "x = 1"),
+        (["%%time\nx = 1"], "x = 1"),
+        (["files = !ls\nf?\n?f\nx = %who_ls\ny = 2"], "y = 2"),
+        (["y = (7\n     % 3)"], "y = (7\n     % 3)"),
+        (
+            ["import rodlab as lab\nimport math", "r = lab.check('a', globals())\nr.score", "assert r\nx = 1"],
+            "import math\n\nx = 1",
+        ),
+        (["from rodlab import check\nprint(check('a', {}))"], ""),
+        (["import rodlab as rl\nK = rl.Strut(n=2)", "rl.check('a')"], "import rodlab as rl\nK = rl.Strut(n=2)\n\nrl.check('a')"),
+        (["def f(:", "x = 1"], "def f(:\n\nx = 1"),
+    ],
+)
+def test_of_a_notebook_only_its_own_python_is_read(cells, found, tmp_path):
+    path = tmp_path / "answer.ipynb"
+    path.write_text(json.dumps({"cells": [{"cell_type": "code", "source": cell} for cell in cells]}), encoding="utf-8-sig")
+    assert read(path) == found
+
+
+def test_a_notebook_with_pictures_and_a_script_of_windows_are_read(tmp_path):
+    outputs = [{"output_type": "display_data", "data": {"image/png": "a" * 2**21}}]
+    path = tmp_path / "answer.ipynb"
+    path.write_text(json.dumps({"cells": [{"cell_type": "code", "source": "x = 1", "outputs": outputs}]}))
+    assert read(path) == "x = 1"
+    path = tmp_path / "answer.py"
+    path.write_bytes(b"\xef\xbb\xbfx = 1\r\ny = 2\r\n")
+    assert read(path) == "x = 1\ny = 2\n"
 
 
 def test_the_better_of_a_script_and_a_notebook_counts(tmp_path, capsys):
@@ -325,6 +400,54 @@ def test_names_are_no_formulas_of_a_spreadsheet(tmp_path):
     assert rows_of(tmp_path / "out" / "students.csv")[0]["student"] == "'=HYPERLINK(1)"
 
 
+def test_odd_files_of_students_are_rows_of_their_own(tmp_path):
+    folder = tmp_path / "class"
+    for student in ("pipe", "many", "good"):
+        (folder / student).mkdir(parents=True)
+    os.mkfifo(folder / "pipe" / "two-joints.py")
+    for i in range(9):
+        (folder / "many" / str(i)).mkdir()
+        (folder / "many" / str(i) / "two-joints.py").write_text("while True: pass")
+    (folder / "good" / "two-joints.py").write_text(TWO.reference)
+    os.mkdir(os.fsencode(folder) + b"/no-text-\xff")
+    Path(os.fsdecode(os.fsencode(folder) + b"/no-text-\xff/two-joints.py")).write_text(TWO.stub)
+    graded = grade_class(folder, tmp_path / "out", seed=1, limits=QUICK)
+    graded.write(tmp_path / "out")
+    rows = {row["student"]: row for row in rows_of(tmp_path / "out" / "grades.csv")}
+    assert list(rows) == ["good", "many", r"no-text-\udcff", "pipe"]
+    assert rows["good"]["percent"] == "100.0"
+    assert rows["pipe"]["message"] == "two-joints.py must be a file; it is none"
+    assert rows["many"]["message"] == "for one exercise at most 8 files are read; here are 9"
+
+
+def test_what_no_process_could_judge_is_tried_again(tmp_path, monkeypatch):
+    write_class(tmp_path / "class", 2, exercises=PAIR)
+    with monkeypatch.context() as broken:
+        broken.setattr("rodlab.grading.process.tempfile.mkdtemp", lambda **_: (_ for _ in ()).throw(OSError(28, "No space left")))
+        graded = grade_class(tmp_path / "class", tmp_path / "out", seed=1, limits=QUICK)
+        assert {r["status"] for r in graded.records} == {"not judged"}
+        assert all("does not start here: No space left" in r["message"] for r in graded.records)
+    again = grade_class(tmp_path / "class", tmp_path / "out", seed=1, limits=QUICK)
+    assert again.fresh == 2
+    assert "not judged" not in {r["status"] for r in again.records}
+
+
+def test_what_is_changed_while_it_is_judged_is_judged_again(tmp_path, monkeypatch):
+    path = tmp_path / "class" / "ann" / "two-joints.py"
+    path.parent.mkdir(parents=True)
+    path.write_text(TWO.stub)
+
+    def slowly(*given, **more):
+        report = check_paths(*given, **more)
+        path.write_text(TWO.reference)
+        return report
+
+    with monkeypatch.context() as changed:
+        changed.setattr("rodlab.lab.classroom.check_paths", slowly)
+        assert grade_class(tmp_path / "class", tmp_path / "out", seed=1, limits=QUICK).records[0]["percent"] == 0.0
+    assert grade_class(tmp_path / "class", tmp_path / "out", seed=1, limits=QUICK).records[0]["percent"] == 100.0
+
+
 def test_a_check_that_fails_is_said_and_stops_nothing(tmp_path, monkeypatch):
     write_class(tmp_path / "class", 2, exercises=PAIR)
     monkeypatch.setattr("rodlab.lab.classroom.check_paths", lambda *_, **__: 1 / 0)
@@ -430,12 +553,70 @@ def test_nbgrader_and_otter_get_notebooks_with_their_marks(tmp_path, capsys):
     ]  # fmt: skip
 
 
+THRICE = "def thrice(x):\n    ### BEGIN SOLUTION\n    return 3 * x\n    ### END SOLUTIN\n\n\n"  # would be left to the students
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ("returns=Number()", "returns=Numbr()", "check.py cannot be loaded: it raises NameError: name 'Numbr' is not defined"),
+        ('name="twice",', "", "cannot be loaded: it raises TypeError: .* missing 1 required keyword-only argument: 'name'"),
+        ("exercise = Exercise", "exercises = Exercise", "must name its Exercise exercise; it is None"),
+        ('source="mine",', 'source="mine", imports="numpy",', "imports must be a tuple of str"),
+        ('source="mine",', 'source="mine", imports=("nowhere",),', "does not start here: .*; it imports nowhere"),
+        ("(equals(lambda x: 2 * x),)", "()", "twice: properties must be at least one"),
+        (
+            "(equals(lambda x: 2 * x),)",
+            "equals(lambda x: 2 * x)",
+            r"twice: properties must be a tuple of Property, such as \(a,\)",
+        ),
+        (
+            "lambda x: 2 * x),",
+            "lambda x: 2 * x, points=0),",
+            'points of the property "equals .*" must be a positive number; it is 0',
+        ),
+        ("returns=Number()", "returns=Number", r"twice: returns must be a kind of value, such as Number\(\)"),
+        (", lambda x: x * x)", ")", 'the mistake "square" must have a function like or when'),
+        ("[(draw.normal(),)]", "[]", "the calls of twice must be tuples of arguments, at least one; they are none"),
+        ("[(draw.normal(),)]", "[2.5]", "the calls of twice must be tuples .* such as 2.5"),
+        ("draw.normal()", "draw.norml()", "the calls of twice cannot be drawn: AttributeError"),
+        ("# %% checks\n", "# %% checks\nraise SystemExit(0)\n", "cannot be loaded: it raises SystemExit"),
+    ],
+)
+def test_a_check_with_a_fault_is_one_sentence(old, new, sentence, tmp_path, capsys):
+    assert OWN.count(old) == 1
+    source = tmp_path / "teacher" / "twice.py"
+    source.parent.mkdir()
+    source.write_text(OWN.replace(old, new))
+    assert main(["exercises", "--make", str(source)]) == 0
+    (tmp_path / "twice" / "answer.py").write_text("def twice(x): return 2 * x\n")
+    capsys.readouterr()
+    assert main(["check", str(tmp_path / "twice"), "--exercises", str(tmp_path)]) == 2
+    said = capsys.readouterr()
+    assert re.search(sentence, said.err), said.err
+    assert (said.out, said.err.count("\n")) == ("", 1)
+
+
+def test_a_title_may_have_formulas_in_it(tmp_path):
+    source = tmp_path / "teacher" / "twice.py"
+    source.parent.mkdir()
+    source.write_text(OWN.replace("# Twice", r'# The angle $\Nu \upsilon$ of "it"'))
+    make(source)
+    assert exercise("twice", tmp_path).points == 1.0
+
+
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [
         ("x = 1\n", "must have a docstring and the cells"),
         (OWN.replace("# %% proofs", "# %% prove"), "must have a docstring and the cells"),
-        (OWN.replace("### BEGIN", "### START"), "must mark its solutions"),
+        (OWN.replace("### BEGIN", "### START"), "must close each ### BEGIN SOLUTION by ### END SOLUTION; it has END"),
+        (OWN.replace("### END SOLUTION", ""), "must close each ### BEGIN SOLUTION by ### END SOLUTION; it has BEGIN"),
+        (OWN.replace("SOLUTION", "ANSWER"), "must mark its solutions"),
+        (OWN.replace("# %% checks", THRICE + "# %% checks"), "must close each .* it has BEGIN, END, BEGIN"),
+        (OWN.replace("# %% checks", "# %% answer\n# %% checks"), "must have each of its cells once"),
+        (OWN.replace("return x + x", "return x +"), r"must be Python: invalid syntax \(line 10\)"),
+        (OWN.replace(OWN[: OWN.index("# %%")], '""" """\n'), "must have a docstring"),
     ],
 )
 def test_a_teachers_file_that_is_none_is_said(text, sentence, tmp_path):

@@ -167,6 +167,36 @@ def test_starting_counts_neither_as_a_question_nor_in_all():
         assert answer.ask("f", [()]) == [1]
 
 
+def test_what_it_says_is_the_same_in_every_run(walled):
+    source = "import os\ndef f(): raise ValueError(object(), os.getcwd(), list(set('abcdefgh')))\n"
+    said = set()
+    for _ in range(3):
+        with Sandbox(source, imports=()) as answer, pytest.raises(Stopped) as why:
+            answer.ask("f", [()])
+        said.add(str(why.value))
+    assert len(said) == 1
+    assert "<object object at 0x...>, '.'" in said.pop()
+
+
+def test_what_is_left_of_the_time_is_not_said():
+    source = "def f():\n    while True: pass\n"
+    said = []
+    with Sandbox(source, Limits(seconds=0.4, total=0.7), imports=()) as answer:
+        for _ in range(3):
+            with pytest.raises(Stopped) as why:
+                answer.ask("f", [()])
+            said.append(str(why.value))
+    assert said[0].startswith("did not come back within 0.4 seconds")
+    assert said[1:] == ["no time is left: the whole answer may take 0.7 seconds"] * 2
+
+
+def test_python_may_be_started_by_a_path_with_dots(walled, monkeypatch):
+    folder, name = os.path.split(sys.executable)
+    monkeypatch.setattr(sys, "executable", f"{tempfile.gettempdir()}/../{folder.lstrip('/')}/{name}")
+    with Sandbox("def f(): return 1", imports=()) as answer:
+        assert answer.ask("f", [()]) == [1]
+
+
 def test_libraries_can_still_be_imported():
     source = """
 import numpy, sympy, mpmath, scipy.linalg, scipy.optimize, scipy.sparse.linalg, ctypes, random, time, decimal, concurrent.futures

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rodlab.grading.plain import decode, encode
+from rodlab.grading.process import clean
 from rodlab.grading.sandbox import Stopped
 
 
@@ -30,9 +31,17 @@ class Directly:
             try:
                 values.append(decode(encode(function(*[decode(encode(x)) for x in given]))))
             except NotImplementedError as error:
-                raise Stopped(f"is not answered yet: {error}".rstrip(": "), unanswered=True) from None
-            except Exception as error:  # noqa: BLE001 whatever an answer raises
+                raise Stopped(f"is not answered yet: {_said(error)}".rstrip(": "), unanswered=True) from None
+            except (Exception, SystemExit) as error:  # noqa: BLE001 whatever an answer raises
                 where = traceback.extract_tb(error.__traceback__)
                 line = f" (line {where[-1].lineno}: {where[-1].line})" if len(where) > 1 else ""
-                raise Stopped(f"raises {type(error).__name__}: {error}{line}") from None
+                raise Stopped(f"raises {type(error).__name__}: {_said(error)}{line}") from None
         return values
+
+
+def _said(error: BaseException) -> str:
+    """What an exception says, in one line; its __str__ is the answer's too."""
+    try:
+        return clean(str(error))
+    except Exception:  # noqa: BLE001
+        return ""

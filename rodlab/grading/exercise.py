@@ -6,6 +6,7 @@ question -> calls drawn from a seed -> values -> properties: measured and allowe
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -121,3 +122,37 @@ class Exercise:
     def points(self) -> float:
         """Points of all its questions."""
         return sum(q.points for q in self.questions)
+
+
+def faulty(exercise: Exercise) -> str | None:
+    """What a teacher forgot, in one sentence; None if nothing."""
+    for each, kind, what in ((exercise.questions, Question, "questions"), (exercise.imports, str, "imports")):
+        if not isinstance(each, tuple | list) or not all(isinstance(one, kind) for one in each):
+            return f"{what} must be a tuple of {kind.__name__}, such as (a,) for one; it is {each!r:.60}"
+    names = [question.name for question in exercise.questions]
+    if not names or len(set(names)) < len(names):
+        return f"questions must be at least one, of different names; they are {names}"
+    return next(filter(None, map(_faulty_question, exercise.questions)), None)
+
+
+def _faulty_question(question: Question) -> str | None:
+    name = question.name
+    if not isinstance(name, str) or not name.isidentifier():
+        return f"a question's name must be that of a function; it is {name!r:.60}"
+    if not callable(question.calls):
+        return f"{name}: calls must be a function of a Generator; it is {question.calls!r:.60}"
+    if isinstance(question.returns, type) or not all(hasattr(question.returns, method) for method in ("read", "distance")):
+        return f"{name}: returns must be a kind of value, such as Number(); it is {question.returns!r:.60}"
+    for each, kind, what in ((question.properties, Property, "properties"), (question.mistakes, Mistake, "mistakes")):
+        if not isinstance(each, tuple | list) or not all(isinstance(one, kind) for one in each):
+            return f"{name}: {what} must be a tuple of {kind.__name__}, such as (a,) for one; it is {each!r:.60}"
+    if not question.properties:
+        return f"{name}: properties must be at least one; there is none"
+    for one in question.properties:
+        for what, value, least in (("points", one.points, 1e-9), ("allowed", one.allowed, 0.0)):
+            if isinstance(value, bool) or not isinstance(value, int | float) or not least <= value < math.inf:
+                return f'{name}: {what} of the property "{one.says}" must be a positive number; it is {value!r:.60}'
+    for mistake in question.mistakes:
+        if not callable(mistake.like) and not callable(mistake.when):
+            return f'{name}: the mistake "{mistake.name}" must have a function like or when'
+    return None

@@ -143,6 +143,8 @@ def grade(exercise: Exercise, answer: Answer, *, seed: int | None = None) -> Rep
     >>> grade(exercise, Directly({"twice": lambda x: -x - x})).mistakes
     ('twice: sign',)
     """
+    if seed is not None and seed < 0:
+        raise ValueError(f"seed must be at least 0; it is {seed}")
     parts = [(VISIBLE, False)] if seed is None else [(VISIBLE, False), (seed, True)]
     items: list[Item] = []
     for start, hidden in parts:
@@ -154,7 +156,7 @@ def grade(exercise: Exercise, answer: Answer, *, seed: int | None = None) -> Rep
 
 def _asked(question: Question, answer: Answer, draw: np.random.Generator, *, hidden: bool, share: float) -> list[Item]:
     """The items of one question."""
-    calls = [tuple(given) for given in question.calls(draw)]
+    calls = _calls(question, draw)
     fail = _Failed(question, share, hidden)
     try:
         values = answer.ask(question.name, calls, question.seconds)
@@ -177,6 +179,18 @@ def _asked(question: Question, answer: Answer, draw: np.random.Generator, *, hid
             Item(question.name, p.says, points * well, points, _finite(m), p.allowed, said, state[1], state[2], state[0], hidden)
         )
     return items
+
+
+def _calls(question: Question, draw: np.random.Generator) -> list[tuple[Any, ...]]:
+    """The arguments of each call; `ValueError` in one sentence for a question that has none."""
+    try:
+        calls = list(question.calls(draw))
+    except Exception as error:
+        raise ValueError(f"the calls of {question.name} cannot be drawn: {type(error).__name__}: {error}") from error
+    if not calls or not all(isinstance(given, tuple) for given in calls):
+        said = f"such as {calls[0]!r:.60}" if calls else "none"
+        raise ValueError(f"the calls of {question.name} must be tuples of arguments, at least one; they are {said}")
+    return calls
 
 
 def _recognised(question: Question, given: list[tuple[tuple[Any, ...], Any]]) -> tuple[str, str, str]:

@@ -9,6 +9,7 @@ import itertools
 import json
 import os
 import queue
+import re
 import shutil
 import signal
 import subprocess
@@ -23,6 +24,7 @@ from rodlab.grading.plain import decode, encode
 from rodlab.grading.walls import MIB, bubblewrap, program, walls
 
 STARTUP = 60.0  # seconds until Python has imported what an exercise imports, which are no answer's
+ADDRESS = re.compile(r"0x[0-9a-fA-F]{6,}")
 NO_ANSWER = "broke off: what it wrote is no answer"
 
 
@@ -50,14 +52,14 @@ class Process:
         self.lines: queue.Queue[bytes | None] = queue.Queue(maxsize=4)
         self.numbers, self.most = itertools.count(1), most
         self.walled = bubblewrap() is not None
-        own = "/answer" if self.walled else self.folder  # the first is bubblewrap's, in memory
+        self.own = own = "/answer" if self.walled else self.folder  # the first is bubblewrap's, in memory
         environment = {
             "PATH": os.defpath, "HOME": own, "TMPDIR": own, "MPLCONFIGDIR": own, "MPLBACKEND": "Agg", "LANG": "C.UTF-8",
-            "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1",
+            "PYTHONHASHSEED": "0", "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1",
             **{name: os.environ[name] for name in ("SYSTEMROOT",) if name in os.environ},
         }  # fmt: skip
         self.process = subprocess.Popen(  # noqa: S603 the command is ours, the submission goes through the pipe
-            [*walls(tuple(setup["hidden"])), sys.executable, "-I", "-B", "-c", program()],
+            [*walls(tuple(setup["hidden"])), os.path.abspath(sys.executable), "-s", "-P", "-B", "-c", program()],  # noqa: PTH100 not resolved
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=self.folder, env=environment,
             start_new_session=True,
         )  # fmt: skip
@@ -112,6 +114,8 @@ class Process:
             found = None
         if not isinstance(found, dict):
             raise Gone(NO_ANSWER, forged=True)
+        if isinstance(found.get("message"), str):  # the same in every run
+            found["message"] = found["message"].replace(self.own, ".")
         return found
 
     def _ended(self) -> str:
@@ -156,19 +160,19 @@ def _value(x: Any) -> Any:
 
 def raised(reply: dict[str, Any], given: tuple[Any, ...] = ()) -> str:
     """What an answer raised, in one sentence of plain text."""
-    error, message, line, text = (_clean(reply.get(name)) for name in ("error", "message", "line", "text"))
+    error, message, line, text = (clean(reply.get(name)) for name in ("error", "message", "line", "text"))
     if error == "NotImplementedError":
         return f"is not answered yet: {message}" if message else "is not answered yet"
     where = f" (line {line}: {text})" if line else ""
     asked = (
-        f" for the arguments {_clean(', '.join(map(repr, given)), 160)}"
+        f" for the arguments {clean(', '.join(map(repr, given)), 160)}"
         if given and error != "PermissionError" and not line
         else ""
     )
     return f"raises {error}{': ' if message else ''}{message}{where}{asked}"
 
 
-def _clean(text: Any, most: int = 300) -> str:
-    """One line of printable characters; of what is neither a text nor a number, nothing."""
-    said = " ".join(str(text)[: 8 * most].split()) if isinstance(text, str | int) else ""
+def clean(text: Any, most: int = 300) -> str:
+    """One line of printable characters, without addresses; of what is neither a text nor a number, nothing."""
+    said = " ".join(ADDRESS.sub("0x...", str(text)[: 8 * most]).split()) if isinstance(text, str | int) else ""
     return "".join(c if c.isprintable() else "?" for c in said)[:most]

@@ -14,7 +14,7 @@ from typing import Any
 from rodlab.grading.process import STARTUP, Gone, Process, Raised, raised
 from rodlab.grading.walls import MIB, bubblewrap, readable
 
-__all__ = ["Limits", "Sandbox", "Stopped", "bubblewrap"]
+__all__ = ["Limits", "NotStarted", "Sandbox", "Stopped", "bubblewrap"]
 
 PACKAGE = Path(__file__).resolve().parents[1]
 EXERCISES = (PACKAGE / "exercises", PACKAGE.parent / "exercises", PACKAGE.parent / "tests", PACKAGE.parent / ".git")
@@ -26,6 +26,10 @@ class Stopped(Exception):
     def __init__(self, sentence: str, *, unanswered: bool = False, lost: bool = False) -> None:
         super().__init__(sentence)
         self.unanswered, self.lost = unanswered, lost
+
+
+class NotStarted(ValueError):
+    """No process to answer in: a fault of this machine or of the exercise, and nobody's points."""
 
 
 @dataclass(frozen=True)
@@ -99,6 +103,8 @@ class Sandbox:
             return process.ask(name, calls, min(allowed, self._left()))
         except Gone as gone:
             self._close()
+            if self.until <= time.monotonic():  # not how much of it was left, which is never the same
+                raise Stopped(self._too_long) from None
             self.dead = gone.sentence if gone.forged else None  # who forges replies is not asked again
             raise Stopped(gone.sentence, lost=gone.forged) from None
         except Raised as error:
@@ -108,22 +114,29 @@ class Sandbox:
         left = self.until - time.monotonic()
         if left <= 0:
             self._close()
-            raise Stopped(f"no time is left: the whole answer may take {self.limits.total:g} seconds")
+            raise Stopped(self._too_long)
         return left
+
+    @property
+    def _too_long(self) -> str:
+        return f"no time is left: the whole answer may take {self.limits.total:g} seconds"
 
     def _started(self) -> Process:
         if self._process is None:
             self._left()
             before = time.monotonic()
-            process = self._process = Process(self._setup(), self.limits.reply)
             try:
+                process = self._process = Process(self._setup(), self.limits.reply)
                 held = process.read(STARTUP)  # before the submission runs, so that this one is ours
-            except Gone as gone:
-                raise self._lost(f"cannot be asked: its process does not start here, it {gone.sentence}") from None
+            except (OSError, Gone) as why:
+                self._close()
+                said = f"it {why.sentence}" if isinstance(why, Gone) else why.strerror or str(why)
+                needs = f"; it imports {', '.join(self.imports)}" if isinstance(why, Gone) and self.imports else ""
+                raise NotStarted(f"the process for an answer does not start here: {said}{needs}") from None
             self.until += time.monotonic() - before
             self.missing, self.locks = tuple(held["missing"]), tuple(held["locks"])
             try:
-                ready = process.read(min(self.limits.seconds, self._left()))
+                ready = process.read(min(self.limits.seconds, self._left()), self.limits.seconds)
             except Gone as gone:
                 raise self._lost(f"cannot be loaded: it {gone.sentence}") from None
             if ready.get("ready") is not True:

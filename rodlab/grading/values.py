@@ -200,7 +200,7 @@ def shown(value: Any, most: int = 60) -> str:
     if value is None:
         return "nothing (None): is there a return?"
     if isinstance(value, np.ndarray):
-        return f"an array of {'complex numbers of ' if value.dtype.kind == 'c' else ''}shape {value.shape}"
+        return f"an array {'of complex numbers, ' if value.dtype.kind == 'c' else ''}of shape {value.shape}"
     text = repr(value) if not isinstance(value, dict) else "a dictionary"
     text = "".join(c if c.isprintable() else "?" for c in text)
     return text if len(text) <= most else text[: most - 3] + "..."

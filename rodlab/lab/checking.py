@@ -22,8 +22,19 @@ def check_one(chosen: argparse.Namespace, what: Path) -> Answered:
     """One answer judged, and Gradescope's file written."""
     _only_of_a_class(chosen)
     course = _course(chosen)
-    if not what.exists() and what.name in names(course) and (home() / what.name).is_dir():
-        what = (course or home()) / what.name
+    try:
+        return _judged(chosen, what, course)
+    except (ValueError, OSError) as error:
+        why = ValueError(f"{what} cannot be read: {error.strerror}") if isinstance(error, OSError) else error
+        if chosen.gradescope:  # who handed it in waits for a word
+            points = exercise(chosen.exercise, course).points if chosen.exercise in names(course) else 0.0
+            write_whole(Path(chosen.gradescope), unreadable(str(why), points))
+        raise why from None
+
+
+def _judged(chosen: argparse.Namespace, what: Path, course: Path | None) -> Answered:
+    if not what.exists() and str(what) in names(course):  # a name alone; what is missing elsewhere is missing
+        what = (course or home()) / what
     paths = answers_in(what)
     for path in paths:
         if not path.is_file():
@@ -35,13 +46,7 @@ def check_one(chosen: argparse.Namespace, what: Path) -> Answered:
         )
     seed = secrets.randbelow(2**31) if chosen.gradescope and chosen.seed is None else chosen.seed
     start = time.perf_counter()
-    asked = exercise(name, course)
-    try:
-        report = check_paths(asked, paths, seed=seed)
-    except ValueError as why:  # who handed it in waits for a word
-        if chosen.gradescope:
-            write_whole(Path(chosen.gradescope), unreadable(str(why), asked.points))
-        raise
+    report = check_paths(exercise(name, course), paths, seed=seed)
     if chosen.gradescope:
         write_whole(Path(chosen.gradescope), results(report, time.perf_counter() - start))
     written = [chosen.gradescope] if chosen.gradescope else []
@@ -66,6 +71,10 @@ def check_class(chosen: argparse.Namespace, watch: Watch) -> Answered:
 
 def listed(chosen: argparse.Namespace) -> tuple[dict[str, Any], str]:
     """The exercises of the course."""
+    needed = "an ANSWER or --class" if chosen.verb == "check" else "--make"
+    for name in ("exercise", "gradescope", "seed", "jobs", "out", "notebooks"):
+        if getattr(chosen, name, None) is not None:
+            raise ValueError(f"--{name} must be given with {needed}")
     course = _course(chosen)
     known = [exercise(name, course) for name in names(course)]
     rows: list[list[Any]] = [[e.name, e.source, f"{e.points:g}", e.title] for e in known]

@@ -16,19 +16,21 @@ import secrets
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from rodlab.files import swept, write_whole
-from rodlab.grading.sandbox import Limits, Stopped
+from rodlab.grading.sandbox import Limits
 from rodlab.lab.course import check_paths, exercise, home, names
 from rodlab.lab.gradescope import of_report, results
 from rodlab.lab.store import as_csv
 from rodlab.lab.studies.journal import Journal
 from rodlab.lab.studies.provenance import fingerprint
-from rodlab.lab.submissions import Submission, submissions
+from rodlab.lab.submissions import LONGEST, Submission, read, submissions
 
 COLUMNS = ("student", "exercise", "score", "max_score", "percent", "status", "mistakes", "message")
+MOST = 8  # files of one student for one exercise
 Watch = Callable[[int, int], None]
 
 
@@ -38,12 +40,12 @@ class Paper:
 
     submission: Submission
 
-    @property
-    def key(self) -> str:
+    @cached_property
+    def key(self) -> str:  # as it was before it was judged: what is changed meanwhile is judged again
         """Student, exercise and what was handed in."""
         named = hashlib.sha256()
-        for path in self.submission.paths:
-            named.update(path.read_bytes() if path.is_file() and not path.is_symlink() else b"")
+        for path in self.submission.paths[: MOST + 1]:
+            named.update(_start(path))
         return json.dumps(
             [self.submission.student, self.submission.exercise, *(p.name for p in self.submission.paths), named.hexdigest()]
         )
@@ -73,6 +75,7 @@ class Class:
             if record["exercise"]:
                 path = out / "gradescope" / record["student"] / f"{record['exercise']}.json"
                 write_whole(path, results(record))
+                swept(path.parent)
         written.append(write_whole(out / "mistakes.png", png(class_picture(self.records))))
         return written
 
@@ -104,6 +107,8 @@ def grade_class(
     """
     if only is not None:
         exercise(only, course)
+    if seed is not None and seed < 0:
+        raise ValueError(f"seed must be at least 0; it is {seed}")
     if jobs < 1:
         raise ValueError(f"jobs must be at least 1; it is {jobs}")
     papers = [Paper(found) for found in submissions(folder, names(course), only)]
@@ -125,7 +130,8 @@ def grade_class(
             try:
                 for done in as_completed(running):
                     records[running[done]] = done.result()
-                    journal.keep(papers[running[done]], done.result())
+                    if done.result()["status"] != "not judged":  # for a fault of ours it is tried again
+                        journal.keep(papers[running[done]], done.result())
                     if watch:
                         watch(len(records), len(papers))
             finally:
@@ -142,9 +148,14 @@ def _record(submission: Submission, course: Path | None, seed: int, limits: Limi
         files = ", ".join(path.name for path in submission.paths)
         return _row(submission, 0.0, 0.0, "not judged", f"{files}: for which exercise is this? Its first line should say so")
     try:
-        report = check_paths(asked, submission.paths, seed=seed, limits=limits)
-    except (ValueError, Stopped) as why:
+        if len(submission.paths) > MOST:
+            raise ValueError(f"for one exercise at most {MOST} files are read; here are {len(submission.paths)}")
+        for path in submission.paths:
+            read(path)
+    except ValueError as why:
         return _row(submission, 0.0, asked.points, "not readable", str(why))
+    try:
+        report = check_paths(asked, submission.paths, seed=seed, limits=limits)
     except Exception as why:  # noqa: BLE001 a fault of a check is this row's alone
         return _row(submission, 0.0, asked.points, "not judged", f"the check failed: {type(why).__name__}: {why}")
     said = of_report(report)
@@ -156,10 +167,24 @@ def _record(submission: Submission, course: Path | None, seed: int, limits: Limi
 
 def _row(submission: Submission, score: float, most: float, status: str, message: str) -> dict[str, Any]:
     percent = 100.0 * score / most if most else 0.0
+    student, message = (
+        text.encode("utf-8", "backslashreplace").decode() for text in (submission.student, message)
+    )  # of any bytes
     return {
-        "student": submission.student, "exercise": submission.exercise, "score": score, "max_score": most, "percent": percent,
+        "student": student, "exercise": submission.exercise, "score": score, "max_score": most, "percent": percent,
         "status": status, "mistakes": "", "message": message, "hints": [message] if message else [], "items": [],
     }  # fmt: skip
+
+
+def _start(path: Path) -> bytes:
+    """A file as far as it would be read; of what cannot be read, nothing."""
+    try:
+        if path.is_symlink() or not path.is_file():
+            return b""
+        with path.open("rb") as file:
+            return file.read(max(LONGEST.values()) + 1)
+    except OSError:
+        return b""
 
 
 def _seed(out: Path, seed: int | None) -> int:
@@ -188,4 +213,4 @@ def _fingerprint(course: Path | None, seed: int) -> str:
 
 def _safe(value: Any) -> Any:
     """Text that a spreadsheet does not take for a formula."""
-    return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t")) else value
+    return f"'{value}" if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) else value

@@ -5,6 +5,7 @@ lies beside an answer.
 """
 
 import importlib.util
+import traceback
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache
@@ -13,7 +14,7 @@ from types import ModuleType
 from typing import Any
 
 from rodlab.grading.directly import Directly
-from rodlab.grading.exercise import Exercise
+from rodlab.grading.exercise import Exercise, faulty
 from rodlab.grading.grade import Report, grade
 from rodlab.grading.sandbox import Limits, Sandbox
 from rodlab.lab.submissions import answers_in, read
@@ -52,10 +53,17 @@ def _loaded(path: Path) -> Exercise:
     if spec is None or spec.loader is None:
         raise ValueError(f"{path} cannot be loaded")
     module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+    try:
+        spec.loader.exec_module(module)
+    except (Exception, SystemExit) as error:
+        lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+        where = f" (line {lines[-1]})" if lines else ""
+        raise ValueError(f"{path} cannot be loaded: it raises {type(error).__name__}: {error}{where}") from error
     found = getattr(module, "exercise", None)
     if not isinstance(found, Exercise):
         raise ValueError(f"{path} must name its Exercise exercise; it is {found!r:.60}")
+    if fault := faulty(found):
+        raise ValueError(f"{path}: {fault}")
     return replace(found, name=path.parent.name)
 
 

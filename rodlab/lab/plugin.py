@@ -42,9 +42,12 @@ class Answer(pytest.File):
         from rodlab.lab.course import check_source, exercise
         from rodlab.lab.submissions import read
 
-        asked = exercise(self.exercise)
         seed: int | None = self.config.getoption("--exercises-seed")
-        for item in check_source(asked, read(self.path), seed=seed).items:
+        try:
+            report = check_source(exercise(self.exercise), read(self.path), seed=seed)
+        except ValueError as why:
+            raise self.CollectError(str(why)) from None
+        for item in report.items:
             fresh = ", fresh parameters" if item.hidden else ""
             yield Item.from_parent(self, name=f"{item.question}: {item.says}{fresh}", item=item)
 

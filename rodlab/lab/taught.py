@@ -60,18 +60,40 @@ def _edited(text: str, edits: Any, what: str) -> str:
 
 def taught(path: Path) -> Taught:
     """A teacher's file, taken apart; `ValueError` in one sentence if it is not one."""
-    text = path.read_text(encoding="utf-8")
-    statement = ast.get_docstring(ast.parse(text))
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+        statement = ast.get_docstring(ast.parse(text))
+    except OSError as error:
+        raise ValueError(f"{path} cannot be read: {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise ValueError(f"{path} must be a text in UTF-8; it is not") from None
+    except SyntaxError as error:
+        raise ValueError(f"{path} must be Python: {error.msg} (line {error.lineno})") from None
     parts = CELL.split(text)
     cells = dict(zip(parts[1::2], parts[2::2], strict=True))
     missing = [name for name in ("answer", "checks", "proofs") if name not in cells]
-    if statement is None or missing:
+    if not statement or missing:
         raise ValueError(
             f"{path} must have a docstring and the cells # %% answer, checks, proofs; it lacks {missing or 'the first'}"
         )
-    if not SOLUTION.search(cells["answer"]):
+    if len(parts) > 7:
+        raise ValueError(f"{path} must have each of its cells once; they are {', '.join(parts[1::2])}")
+    found = Taught(path.stem, statement, *(cells[name].strip() + "\n" for name in ("answer", "checks", "proofs")))
+    _marked(path, found)
+    return found
+
+
+def _marked(path: Path, found: Taught) -> None:
+    """Refuse marks without their other half, and whatever they would leave of a solution to the students."""
+    marks = re.findall(r"(BEGIN|END) SOLUTION", found.answer)
+    if not marks:
         raise ValueError(f"{path} must mark its solutions by ### BEGIN SOLUTION and ### END SOLUTION; it has no such mark")
-    return Taught(path.stem, statement, *(cells[name].strip() + "\n" for name in ("answer", "checks", "proofs")))
+    if marks != ["BEGIN", "END"] * (len(marks) // 2) or "SOLUTION" in found.stub or "SOLUTION" in found.checks:
+        raise ValueError(f"{path} must close each ### BEGIN SOLUTION by ### END SOLUTION; it has {', '.join(marks)}")
+    try:
+        ast.parse(found.stub)
+    except SyntaxError as error:
+        raise ValueError(f"{path} must be Python also without its solutions: {error.msg}") from None
 
 
 def folder_of(found: Taught) -> dict[str, str]:
@@ -81,11 +103,12 @@ def folder_of(found: Taught) -> dict[str, str]:
         f'`answer.ipynb` (its last cell is `rl.check("{found.name}", globals())`). A first hint: `rl.hint("{found.name}")`.\n'
     )
     title = found.statement.splitlines()[0].lstrip("# ")
+    plain = title.replace("\\", "\\\\").replace('"', "'")  # in a docstring
     return {
         "README.md": found.statement + foot,
         "answer.py": f"# rodlab exercise: {found.name}\n{found.stub}",
         "answer.ipynb": notebook(found, found.stub),
-        "check.py": f'"""Checks of the exercise "{title}"; made from the teacher\'s file."""\n\n{found.checks}',
+        "check.py": f'"""Checks of the exercise "{plain}"; made from the teacher\'s file."""\n\n{found.checks}',
     }
 
 
