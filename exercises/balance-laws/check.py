@@ -117,6 +117,11 @@ exercise = Exercise(
                     lambda n, m, u, v: -np.cross(u, m) + np.cross(v, n),
                 ),
                 Mistake(
+                    "sign of the turning",
+                    "Without the moment of the force (v = 0) the moment is constant in space, as the force is. Compare with `force_rate`.",
+                    lambda n, m, u, v: np.cross(u, m) - np.cross(v, n),
+                ),
+                Mistake(
                     "sign", "Both terms stand on the side of m' in the law.", lambda n, m, u, v: np.cross(u, m) + np.cross(v, n)
                 ),
             ),

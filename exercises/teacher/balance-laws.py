@@ -161,6 +161,11 @@ exercise = Exercise(
                     lambda n, m, u, v: -np.cross(u, m) + np.cross(v, n),
                 ),
                 Mistake(
+                    "sign of the turning",
+                    "Without the moment of the force (v = 0) the moment is constant in space, as the force is. Compare with `force_rate`.",
+                    lambda n, m, u, v: np.cross(u, m) - np.cross(v, n),
+                ),
+                Mistake(
                     "sign", "Both terms stand on the side of m' in the law.", lambda n, m, u, v: np.cross(u, m) + np.cross(v, n)
                 ),
             ),
@@ -202,6 +207,7 @@ PROOFS = {
     "moment_rate: turning of the triad forgotten": ("-turning - np", "-np"),
     "moment_rate: moment of the force forgotten": ("-turning - np.cross(v, n)", "-turning"),
     "moment_rate: sign of the moment of the force": ("-turning - np", "-turning + np"),
+    "moment_rate: sign of the turning": ("-turning - np", "turning - np"),
     "moment_rate: sign": ("-turning - np.cross(v, n)", "turning + np.cross(v, n)"),
     "invariants: length for its square": ("return n @ n, m @ n", "return np.sqrt(n @ n), m @ n"),
     "invariants: length of the moment": ("return n @ n, m @ n", "return n @ n, m @ m"),

@@ -1,7 +1,7 @@
 r"""# A straight rod held as a helix
 
 A uniform rod, straight when unstressed, inextensible, with bending stiffness $K_1 = K_2$ and twisting stiffness $K_3$, is held as a helix of
-curvature $\kappa > 0$ and torsion $\tau$, and twisted so that the component of its strain along the tangent $d_3$ is $u_3$ [N 2.5].
+curvature $\kappa > 0$ and torsion $\tau$ (of either sign), and twisted so that the component of its strain along the tangent $d_3$ is $u_3$ [N 2.5].
 
 Let $(\nu, b, t)$ be the normal, binormal and tangent of the helix. The Darboux vector of this triad is $w = \kappa\, b + \tau\, t$; it is the same at
 every point, and points along the axis of the helix. The moment is $m = K_1 \kappa\, b + K_3 u_3\, t$. By balance the force $n$ is constant, and
@@ -82,8 +82,9 @@ def moment_along(*given):
 
 
 def calls(draw):
-    for _ in range(4):
-        kappa, tau, u3 = draw.uniform(0.5, 1.5), draw.uniform(0.5, 1.5), draw.uniform(2.5, 4)
+    """Helices of either hand, twisted in the sense of their torsion: in tension and in compression, with no cancellation."""
+    for hand in (1, -1, 1, -1):
+        kappa, tau, u3 = draw.uniform(0.5, 1.5), hand * draw.uniform(0.5, 1.5), hand * draw.uniform(2.5, 4)
         yield kappa, tau, u3, draw.uniform(1, 1.6), draw.uniform(1.7, 2.5)
 
 
@@ -135,6 +136,11 @@ exercise = Exercise(
                     lambda *given: -force_along(*given),
                 ),
                 Mistake(
+                    "always in tension",
+                    "Can such a helix push its ends apart? Reverse both the torsion and the twist.",
+                    lambda *given: abs(force_along(*given)),
+                ),
+                Mistake(
                     "the tangential component",
                     "The tangent of a helix is not its axis.",
                     lambda *given: vectors(*given)[2][2],
@@ -181,6 +187,7 @@ PROOFS = {
     "force: torsion for twist": ("factor = K3 * u3 - K1 * tau", "factor = K3 * tau - K1 * tau"),
     "force: components interchanged": ("[0.0, factor * kappa, factor * tau]", "[0.0, factor * tau, factor * kappa]"),
     "axial_force: sign of the axial force": ("return (K3 * u3 - K1 * tau) * np", "return (K1 * tau - K3 * u3) * np"),
+    "axial_force: always in tension": ("return (K3 * u3 - K1 * tau) * np", "return abs(K3 * u3 - K1 * tau) * np"),
     "axial_force: the tangential component": ("(K3 * u3 - K1 * tau) * np.sqrt(kappa**2 + tau**2)", "(K3 * u3 - K1 * tau) * tau"),
     "axial_force: not of unit length": ("- K1 * tau) * np.sqrt(kappa**2 + tau**2)", "- K1 * tau) * (kappa**2 + tau**2)"),
     "axial_moment: length of the axis forgotten": ("u3 * tau) / np.sqrt(kappa**2 + tau**2)", "u3 * tau)"),

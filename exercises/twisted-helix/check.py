@@ -41,8 +41,9 @@ def moment_along(*given):
 
 
 def calls(draw):
-    for _ in range(4):
-        kappa, tau, u3 = draw.uniform(0.5, 1.5), draw.uniform(0.5, 1.5), draw.uniform(2.5, 4)
+    """Helices of either hand, twisted in the sense of their torsion: in tension and in compression, with no cancellation."""
+    for hand in (1, -1, 1, -1):
+        kappa, tau, u3 = draw.uniform(0.5, 1.5), hand * draw.uniform(0.5, 1.5), hand * draw.uniform(2.5, 4)
         yield kappa, tau, u3, draw.uniform(1, 1.6), draw.uniform(1.7, 2.5)
 
 
@@ -92,6 +93,11 @@ exercise = Exercise(
                     "sign of the axial force",
                     "Is it positive when the ends are pulled apart?",
                     lambda *given: -force_along(*given),
+                ),
+                Mistake(
+                    "always in tension",
+                    "Can such a helix push its ends apart? Reverse both the torsion and the twist.",
+                    lambda *given: abs(force_along(*given)),
                 ),
                 Mistake(
                     "the tangential component",
