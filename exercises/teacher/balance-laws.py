@@ -77,9 +77,8 @@ def off(value, true):
 
 
 def drift(calls):
-    """Calls come in pairs: the same rod at two places."""
-    pairs = zip(calls[::2], calls[1::2], strict=True)
-    return max(abs(a - b) / max(abs(a), abs(b)) for one, two in pairs for a, b in zip(one.value, two.value, strict=True))
+    """Calls come in pairs: the same rod at two places; relative to the larger number, as m . n may nearly vanish."""
+    return max(off(np.array(two.value), np.array(one.value)) for one, two in zip(calls[::2], calls[1::2], strict=True))
 
 
 def forces(draw):
