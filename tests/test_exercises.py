@@ -19,6 +19,10 @@ def test_the_course_is_whole():
     assert len(FILES) >= 24
     assert course.names() == sorted(FILES)
     assert (ROOT / "exercises" / "README.md").read_text() == index(ROOT / "exercises" / "teacher")
+    mistakes = sum(len(q.mistakes) for name in FILES for q in course.exercise(name).questions)
+    said = (ROOT / "README.md").read_text()
+    assert f"{len(FILES)} exercises: references" in said
+    assert f"{mistakes} mistakes" in said
 
 
 def judged(name, source, seed=None):

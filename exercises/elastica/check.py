@@ -29,7 +29,7 @@ def truth(alpha):
 
 
 def integrated(alpha, steps=1000):
-    """x(1), z(1) and phi(0) by Runge and Kutta's method from the tip downwards."""
+    """x(1) and z(1) by Runge and Kutta's method from the tip downwards."""
     lam, h = truth(alpha), 1 / steps
 
     def field(y):

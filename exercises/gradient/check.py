@@ -71,6 +71,16 @@ exercise = Exercise(
                     "Link n is free at its upper end: how many springs does phi_n occur in? (The natural boundary condition.)",
                     lambda *given: moments(*given, end=1.0),
                 ),
+                Mistake(
+                    "rest angles forgotten",
+                    "Is your gradient zero where no spring is stretched and there is no load?",
+                    lambda phi, lam, k, beta, h: moments(phi, lam, k, 0 * beta, h),
+                ),
+                Mistake(
+                    "h forgotten",
+                    "The load's moment about a joint has an arm: how long is the link?",
+                    lambda phi, lam, k, beta, h: moments(phi, lam, k, beta, 1.0),
+                ),
             ),
             hint="Each angle occurs in the two springs at the ends of its link and in one cosine; the first and last joint are special.",
         ),

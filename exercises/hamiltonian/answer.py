@@ -14,7 +14,7 @@ def field(phi, m, N1, N3, K, u_hat):
     raise NotImplementedError
 
 
-def drift(phi, m, N1, N3, K, u_hat, n):
-    """H at s = 1 less H at s = 0 along n steps of the classical Runge-Kutta method, a number."""
+def drift(phi, m, N1, N3, K, u_hat, steps):
+    """H at s = 1 less H at s = 0 along steps of the classical Runge-Kutta method, a number."""
     # YOUR CODE HERE
     raise NotImplementedError

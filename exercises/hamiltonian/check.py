@@ -15,9 +15,9 @@ def right_hand_side(phi, m, N1, N3, K, u_hat):
     return np.array([u_hat + m / K, N3 * np.sin(phi) - N1 * np.cos(phi)])
 
 
-def integrated(phi, m, N1, N3, K, u_hat, n, *, euler=False):
-    step, state = 1.0 / n, np.array([phi, m])
-    for _ in range(n):
+def integrated(phi, m, N1, N3, K, u_hat, steps, *, euler=False):
+    step, state = 1.0 / steps, np.array([phi, m])
+    for _ in range(steps):
         a = right_hand_side(*state, N1, N3, K, u_hat)
         if euler:
             state = state + step * a
@@ -30,8 +30,8 @@ def integrated(phi, m, N1, N3, K, u_hat, n, *, euler=False):
 
 
 def change(phi, m, *given, euler=False):
-    *others, n = given
-    return energy(*integrated(phi, m, *others, n, euler=euler), *others) - energy(phi, m, *others)
+    *others, steps = given
+    return energy(*integrated(phi, m, *others, steps, euler=euler), *others) - energy(phi, m, *others)
 
 
 def states(draw):
@@ -53,8 +53,14 @@ def runs(draw):
         draw.uniform(0.9, 1.1),
         draw.uniform(0.8, 1.2),
     )
-    for n in (32, 64, 128):
-        yield *start, n
+    for steps in (16, 32, 64):
+        yield *start, steps
+
+
+def off_drift(value, *given):
+    """Relative distance from the true drift, which is itself a difference and known to rounding only."""
+    true = change(*given)
+    return abs(value - true) / (abs(true) + 1e-8)
 
 
 exercise = Exercise(
@@ -119,15 +125,17 @@ exercise = Exercise(
             calls=runs,
             returns=Number(),
             properties=(
-                holds("is small", lambda value, *_: abs(value), 1e-4),
-                holds("is of order 4: n^4 times it stays bounded", lambda value, *given: given[-1] ** 4 * abs(value), 10.0),
-                equals(change, 1e-5, says="is that of the classical method"),
+                holds("is small", lambda value, *_: abs(value), 1e-4, 0.25),
+                holds(
+                    "is of order 4: steps^4 times it stays bounded", lambda value, *given: given[-1] ** 4 * abs(value), 10.0, 0.25
+                ),
+                holds("is that of the classical method", off_drift, 1e-5, 1.5),
             ),
             mistakes=(
-                Mistake("sign", "The end less the start.", lambda *given: -change(*given)),
+                Mistake("sign", "The end less the start.", lambda *given: -change(*given), within=1e-4),
                 Mistake(
-                    "one step of Euler's method",
-                    "Does the drift fall by 16 when n is doubled? An order of 4 takes four slopes a step.",
+                    "Euler's method",
+                    "Does the drift fall by 16 when the steps are halved? An order of 4 takes four slopes a step.",
                     lambda *given: change(*given, euler=True),
                 ),
                 Mistake(

@@ -89,7 +89,7 @@ exercise = Exercise(
             mistakes=(
                 Mistake(
                     "radius of curvature",
-                    "1/kappa is the radius of the cylinder only where the helix is a circle. Which quantity must be small for that?",
+                    "1/kappa is the radius of the cylinder only where the helix is a circle. Which quantity must vanish for that?",
                     lambda u: (1 / np.hypot(u[0], u[1]), 2 * np.pi * u[2] / (u @ u)),
                 ),
                 Mistake(

@@ -101,6 +101,16 @@ exercise = Exercise(
             properties=(against(1.0), tends(1)),
             mistakes=(
                 Mistake(
+                    "eigenvalues of the springs alone",
+                    "The load stands beside a factor h in the second derivative: at your loads, is its determinant zero?",
+                    lambda n: dense(n, 1.0) / n,
+                ),
+                Mistake(
+                    "loads of a strut of length n",
+                    "Your loads tend to zero as n grows. How long is a link, and how stiff is a spring?",
+                    lambda n: dense(n, 1.0) / n**2,
+                ),
+                Mistake(
                     "loads of the rod",
                     "n joints have n loads of their own; the rod's are their limits.",
                     lambda n: (odd(n) * np.pi / 2) ** 2,

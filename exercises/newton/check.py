@@ -113,6 +113,11 @@ exercise = Exercise(
                     "Your steps are those of the chord method, of first order. Where is J taken?",
                     when=begins(frozen=True),
                 ),
+                Mistake(
+                    "one array for all rows",
+                    "Your rows are all alike: z += w changes the array that has been kept already. Keep a new one.",
+                    when=lambda given: all(np.ptp(np.array(v), axis=0).max() == 0 and np.any(v[0] != a[2]) for a, v in given),
+                ),
                 Mistake("start left out", "The first row is the start itself.", lambda *given: variant(*given)[1:]),
             ),
             hint="A loop: solve a linear system, add its solution, keep the result.",

@@ -107,7 +107,7 @@ exercise = Exercise(
                 ),
                 Mistake(
                     "clamped at both ends",
-                    "This is about four times too large: the first mode of the free end is a quarter of a wave.",
+                    "This is several times too large: with a free end the first mode is a quarter of a wave.",
                     lambda K, n: np.linalg.eigvalsh(matrix(K, n, beyond=1.0))[0],
                 ),
                 Mistake(
@@ -126,7 +126,7 @@ exercise = Exercise(
             mistakes=(
                 Mistake(
                     "limit of many joints",
-                    "This holds for the continuous rod. Try K = K_min with n = 2: the discrete eigenvalue is a little smaller.",
+                    "This holds for the continuous rod. Try K = K_min with n = 2: the discrete eigenvalue is smaller.",
                     lambda K_min, n: K_min * np.pi**2 / 4,
                 ),
                 Mistake(

@@ -56,6 +56,11 @@ exercise = Exercise(
             properties=(holds("balances the moments", lambda lam, phi, beta: abs(moment(phi, lam, beta)), 1e-10),),
             mistakes=(
                 Mistake("rest angle forgotten", "At which angle is the spring at rest?", lambda phi, beta: phi / np.sin(phi)),
+                Mistake(
+                    "sign of the load",
+                    "For a small beta, is a leaning strut held by a load that presses or by one that pulls?",
+                    lambda phi, beta: -balanced(phi, beta),
+                ),
             ),
             hint="Set the derivative of V to zero; it is linear in lam.",
         ),

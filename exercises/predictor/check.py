@@ -99,6 +99,11 @@ exercise = Exercise(
                     "The angle changes with the load: differentiate lam sin(phi) by the product rule.",
                     lambda phi, lam: np.sin(phi),
                 ),
+                Mistake(
+                    "derivative of the load",
+                    "Which of the two is the function here, and which the variable?",
+                    lambda phi, lam: 1 / along(phi, lam),
+                ),
             ),
             hint="Differentiate f(phi(lam); lam) = 0 with respect to lam.",
         ),
@@ -108,7 +113,11 @@ exercise = Exercise(
             returns=Array((2,)),
             properties=(equals(differences, 1e-8, says="is the derivative of the solution (complex step in the load)"),),
             mistakes=(
-                Mistake("sign", "What has to be zero to first order: f_lam + J z^1. Is it?", lambda *given: -differences(*given)),
+                Mistake(
+                    "sign",
+                    "To first order in the load f must not change along the branch. Is f_lam + J z^1 zero for yours?",
+                    lambda *given: -differences(*given),
+                ),
                 Mistake(
                     "transposed Jacobian",
                     "J_ij is the derivative of equation i with respect to unknown j, and it is not symmetric here.",

@@ -81,7 +81,9 @@ def unoriented(given):
 
 
 def turned_back(given):
-    return all(off_curves(np.array(v), *a) < 1e-8 and np.any(np.diff(np.array(v)[:, 0]) > 0) for a, v in given)
+    """True of rows on the curve that set out in the right direction and do not keep to it."""
+    forward = [np.diff(np.array(v)[:, 0]) < 0 for _, v in given]
+    return all(off_curves(np.array(v), *a) < 1e-8 and on[0] and not on.all() for (a, v), on in zip(given, forward, strict=True))
 
 
 exercise = Exercise(

@@ -11,7 +11,7 @@ $B^T B = A$ has no sums: its entries are right to rounding, it is bidiagonal, an
 
 **Write**
 
-1. `factor(k, h)`, a bidiagonal matrix $B$ of shape (n, n) with $B^T B = A$, every entry accurate to rounding however the $k_i$ differ;
+1. `factor(k, h)`, a bidiagonal matrix $B$ (lower or upper) of shape (n, n) with $B^T B = A$, every entry accurate to rounding however the $k_i$ differ;
 2. `smallest_load(k, h)`, the first buckling load with a relative error below $10^{-10}$ for stiffnesses that differ by $10^{14}$. (The *largest*
    singular value of any matrix is computed accurately: of which matrix is it the one you look for? What are the signs of its entries?)
 """

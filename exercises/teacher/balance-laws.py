@@ -12,8 +12,8 @@ constant vector are not constant.
 
 1. `force_rate(n, u)`: the derivatives $n_i'$, shape (3,);
 2. `moment_rate(n, m, u, v)`: the derivatives $m_i'$, shape (3,);
-3. `invariants(n, m)`: two functions of the components that are constant along every such rod, whatever its constitutive law:
-   $|n|^2$, and the one that has both $n$ and $m$ in it, a product.
+3. `invariants(n, m)`: the pair of two functions of the components that are constant along every such rod, whatever its constitutive law:
+   $|n|^2$, and the product of the vectors $n$ and $m$ that is a number and stays the same.
 """
 
 # %% answer

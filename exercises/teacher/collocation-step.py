@@ -12,7 +12,8 @@ other. The error after many steps is of order $2m = 4$.
 **Write**
 
 1. `tableau()`, the arrays $a$ of shape (2, 2), $b$ and $c$ of shape (2,), with $c_1 < c_2$;
-2. `step(f, t, y, h)`, one step, an array of the shape of `y`, for a function `f(t, y)`; solve for the slopes to an error below $10^{-9}$
+2. `step(f, t, y, h)`, one step, an array of the shape of `y`, for a function `f(t, y)`
+   that returns one too; solve for the slopes to an error below $10^{-9}$
    ($h$ is small enough for repeated substitution to converge quickly);
 3. `integrate(f, y, end, n)`, the value at `t = end` after `n` equal steps from `y` at $t = 0$.
 """

@@ -18,7 +18,7 @@ $\phi_0, \dots, \phi_n$ and $m_0, \dots, m_n$ at $s_i = i h$: what results is a 
 3. `solve(lam, K, u_hat, n)`, the arrays $\phi$, $m$ for which all residuals and both ends' conditions vanish. ($\lambda$ is below the first
    buckling load: there is only one, and Newton's method finds it from the unstressed shape or from zero.)
 
-Compare 2 with the scheme of the strut, $\dots + \lambda \sin\phi_i = 0$: both are of second order there, but not at the free end.
+Compare 2 with the scheme of the strut, $\dots + \lambda \sin\phi_i = 0$: at the inner points both are of second order; at the free end the strut's is not.
 """
 
 # %% answer

@@ -1,6 +1,6 @@
 r"""# The elastica
 
-The uniform strut ($K = 1$, length 1, clamped below, free above under the load $\lambda$) satisfies $\phi'' + \lambda \sin\phi = 0$, $\phi(0) = 0$,
+The uniform strut (stiffness 1, length 1, clamped below, free above under the load $\lambda$) satisfies $\phi'' + \lambda \sin\phi = 0$, $\phi(0) = 0$,
 $\phi'(1) = 0$ [N 2.6, 2.8.1]. Its first buckled branch, with the tip angle $\alpha = \phi(1)$ in radians, $0 < \alpha < \pi$, is known in
 closed form. Multiply by $\phi'$ and integrate,
 
@@ -79,7 +79,7 @@ def truth(alpha):
 
 
 def integrated(alpha, steps=1000):
-    """x(1), z(1) and phi(0) by Runge and Kutta's method from the tip downwards."""
+    """x(1) and z(1) by Runge and Kutta's method from the tip downwards."""
     lam, h = truth(alpha), 1 / steps
 
     def field(y):

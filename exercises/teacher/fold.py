@@ -137,7 +137,7 @@ def off_singular(found, f, J, z, lam):
 
 def measured(property_, wanted):
     """True if a property holds of all values, or of none."""
-    return lambda given: all((property_((np.array(v[0]), v[1]), *a) < 1e-8) == wanted for a, v in given)
+    return lambda given: all((property_((np.array(v[0]), v[1]), *a) < 1e-7) == wanted for a, v in given)
 
 
 exercise = Exercise(
@@ -185,8 +185,8 @@ exercise = Exercise(
             calls=folds,
             returns=Parts(Array(lambda f, J, z, lam: z.shape), Number()),
             properties=(
-                holds("is an equilibrium, and near", off_equilibrium, 1e-9),
-                holds("has a singular Jacobian, and is near", off_singular, 1e-8, 2.0),
+                holds("is an equilibrium, and near", off_equilibrium, 1e-7),
+                holds("has a singular Jacobian, and is near", off_singular, 1e-7, 2.0),
             ),
             mistakes=(
                 Mistake(

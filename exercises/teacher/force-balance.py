@@ -1,6 +1,7 @@
 r"""# Force balance by multipliers
 
-The strut of $n$ joints has links $0, \dots, n$ of length $h$ at the angles $\phi_0 = 0, \phi_1, \dots, \phi_n$ (radians) from the vertical;
+The strut of $n$ joints has links $0, \dots, n$ of length $h$, and at joint $i = 1, \dots, n$, between links $i - 1$ and $i$, a spring $k_i$
+with the rest angle $\beta_i$. The links are at the angles $\phi_0 = 0, \phi_1, \dots, \phi_n$ (radians) from the vertical;
 link $i - 1$ ends at the point $(x_i, z_i)$, and $x_0 = z_0 = 0$. Let angles *and* places be unknowns, tied by constraints
 [N 2.8, the discrete force balance]: for $i = 1, \dots, n + 1$
 
@@ -17,7 +18,7 @@ $$L = \sum_{i=1}^{n} \tfrac12 k_i (\phi_i - \phi_{i-1} - \beta_i)^2 + \lambda z_
 1. `places(phi, h)` for the $n$ free angles `phi`: the two arrays $(x_1, \dots, x_{n+1})$ and $(z_1, \dots, z_{n+1})$;
 2. `multipliers(n, lam)`: the arrays $(\nu_1, \dots, \nu_{n+1})$ and $(\mu_1, \dots, \mu_{n+1})$ at an equilibrium;
 3. `moment_balance(phi, nu, mu, k, beta, h)`: the derivatives $\partial L/\partial\phi_i$, $i = 1, \dots, n$, shape (n,), for any
-   multipliers `nu`, `mu` of shape (n+1,). With yours it must be the balance of moments of the strut without multipliers.
+   multipliers `nu`, `mu` of shape (n+1,); `phi`, `k`, `beta` have the shape (n,). With your multipliers it must be the balance of moments of the strut without multipliers.
 """
 
 # %% answer

@@ -5,10 +5,14 @@ A strut of $n$ joints [N 2.7] has the energy
 $$V(\phi; \lambda) = \sum_{i=1}^n \tfrac12 k_i (\phi_i - \phi_{i-1} - \beta_i)^2 + \lambda h \sum_{i=1}^n \cos\phi_i,
 \qquad \phi_0 = \beta_0 = 0 .$$
 
-The first sum is stored in the springs, the second is the load times the height of its point of application. An equilibrium is a
-zero of the gradient: the balance of moments about each joint.
+Link $i$, of length $h$, stands at the angle $\phi_i$ from the vertical (radians); the spring of stiffness $k_i$ at its lower end is at rest
+where $\phi_i - \phi_{i-1} = \beta_i$. The first sum is stored in the springs, the second is the load $\lambda$ times the height of its point of
+application. An equilibrium is a zero of the gradient: the balance of moments about each joint.
 
-**Write** `energy(phi, lam, k, beta, h)` and `gradient(phi, lam, k, beta, h)` for arrays `phi`, `k`, `beta` of the same length $n$.
+**Write**, for arrays `phi`, `k`, `beta` of the same length $n$,
+
+1. `energy(phi, lam, k, beta, h)`, the energy $V$, a number;
+2. `gradient(phi, lam, k, beta, h)`, the derivatives $\partial V/\partial\phi_i$ for $i = 1, \dots, n$, an array of shape $(n,)$.
 """
 
 # %% answer
@@ -104,6 +108,16 @@ exercise = Exercise(
                     "Link n is free at its upper end: how many springs does phi_n occur in? (The natural boundary condition.)",
                     lambda *given: moments(*given, end=1.0),
                 ),
+                Mistake(
+                    "rest angles forgotten",
+                    "Is your gradient zero where no spring is stretched and there is no load?",
+                    lambda phi, lam, k, beta, h: moments(phi, lam, k, 0 * beta, h),
+                ),
+                Mistake(
+                    "h forgotten",
+                    "The load's moment about a joint has an arm: how long is the link?",
+                    lambda phi, lam, k, beta, h: moments(phi, lam, k, beta, 1.0),
+                ),
             ),
             hint="Each angle occurs in the two springs at the ends of its link and in one cosine; the first and last joint are special.",
         ),
@@ -115,6 +129,8 @@ PROOFS = {
     "energy: rest angles forgotten": ("prepend=0.0) - beta\n    return", "prepend=0.0)\n    return"),
     "energy: factor one half": ("bend**2) / 2", "bend**2)"),
     "energy: h forgotten": ("lam * h * np.sum", "lam * np.sum"),
+    "gradient: rest angles forgotten": ("prepend=0.0) - beta)", "prepend=0.0))"),
+    "gradient: h forgotten": ("- lam * h * np.sin", "- lam * np.sin"),
     "gradient: sign of the load": ("above - lam * h", "above + lam * h"),
     "gradient: upper spring forgotten": ("moment - above - lam", "moment - lam"),
     "gradient: a spring above the last link": ("(moment[1:], 0.0)", "(moment[1:], moment[-1])"),

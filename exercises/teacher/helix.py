@@ -7,8 +7,8 @@ Its curvature is $\kappa = |r''|$, its torsion $\tau$ the rate at which the plan
 
 **Write**
 
-1. `curvature_and_torsion(u)`: the pair $(\kappa, \tau)$;
-2. `radius_and_pitch(u)`: the radius of the cylinder that the helix lies on, and its pitch, the distance along the axis of two successive turns
+1. `curvature_and_torsion(u)`: the pair $(\kappa, \tau)$, for `u` of shape (3,);
+2. `radius_and_pitch(u)`: a pair, the radius of the cylinder that the helix lies on, and its pitch, the distance along the axis of two successive turns
    (with the sign of $\tau$; assume $\kappa > 0$);
 3. `centreline(u, s)`: the points $r(s)$ for an array `s`, from $r(0) = 0$ with the triad at $s = 0$ equal to the fixed frame, shape (len(s), 3).
    Assume $u \ne 0$. You may use `scipy.linalg.expm`, or the formula of Rodrigues.
@@ -136,7 +136,7 @@ exercise = Exercise(
             mistakes=(
                 Mistake(
                     "radius of curvature",
-                    "1/kappa is the radius of the cylinder only where the helix is a circle. Which quantity must be small for that?",
+                    "1/kappa is the radius of the cylinder only where the helix is a circle. Which quantity must vanish for that?",
                     lambda u: (1 / np.hypot(u[0], u[1]), 2 * np.pi * u[2] / (u @ u)),
                 ),
                 Mistake(

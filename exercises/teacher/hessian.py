@@ -4,7 +4,7 @@ The strut of $n$ joints [N 2.7] has the energy
 
 $$V(\phi; \lambda) = \sum_{i=1}^n \tfrac12 k_i (\phi_i - \phi_{i-1} - \beta_i)^2 + \lambda h \sum_{i=1}^n \cos\phi_i, \qquad \phi_0 = \beta_0 = 0$$
 
-(angles in radians). Its second derivative with respect to $\phi_1, \dots, \phi_n$ is symmetric and tridiagonal, because a spring connects
+(angles in radians), where $k_i$ is the stiffness of the spring at joint $i$, $h$ the length of a link and $\lambda$ the load. Its second derivative with respect to $\phi_1, \dots, \phi_n$ is symmetric and tridiagonal, because a spring connects
 neighbours only, and it does not contain $\beta$. Two arrays hold all of it: the diagonal, of length $n$, and the entries
 $(i, i + 1)$ beside it, of length $n - 1$. Nothing in a computation with it has to be larger than these.
 
@@ -14,7 +14,7 @@ $(i, i + 1)$ beside it, of length $n - 1$. Nothing in a computation with it has 
    $(n - 1,)$; for $n = 1$ the second is empty;
 2. `product(diagonal, off_diagonal, v)`, the matrix of these two arrays times the vector $v$, shape $(n,)$, without forming the matrix:
    it has to work for $n = 10^5$;
-3. `second_variation(phi, lam, k, h, v)`, the number $v \cdot V'' v$, which decides whether $V$ rises or falls from $\phi$ in the direction $v$.
+3. `second_variation(phi, lam, k, h, v)`, for `v` of shape (n,) the number $v \cdot V'' v$, which decides whether $V$ rises or falls from $\phi$ in the direction $v$.
 """
 
 # %% answer

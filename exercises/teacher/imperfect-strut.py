@@ -145,8 +145,22 @@ def real_roots(lam, j, delta, cubic=16.0):
     return np.sort(roots[np.abs(roots.imag) < 1e-9].real)
 
 
+def complex_kept(given):
+    """All three roots, as they come from a solver or by their real parts."""
+    found = [(complex_roots(*a), np.sort(np.real(np.asarray(value, dtype=complex)))) for a, value in given]
+    return all(right.shape == value.shape and np.max(np.abs(right - value)) < 1e-6 for right, value in found)
+
+
+def not_real(value):
+    return isinstance(value, complex) or np.isnan(float(value))
+
+
 def no_number(given):
-    return any(isinstance(value, complex) or np.isnan(float(value)) for _, value in given)
+    return any(not_real(value) for _, value in given)
+
+
+def no_numbers(given):
+    return any(not_real(x) for _, pair in given for x in pair)
 
 
 exercise = Exercise(
@@ -192,7 +206,7 @@ exercise = Exercise(
                 Mistake(
                     "complex roots kept",
                     "Before the fold the cubic has one real root only; how do you tell the complex ones?",
-                    complex_roots,
+                    when=complex_kept,
                 ),
                 Mistake(
                     "sign of delta",
@@ -255,6 +269,11 @@ exercise = Exercise(
                     "The detached branch exists for loads above its fold: is that above or below lam_j?",
                     lambda j, delta: (2 * euler(j) - lowest(j, delta)[0], lowest(j, delta)[1]),
                 ),
+                Mistake(
+                    "power of a negative number",
+                    "delta may be negative: which of your powers of it is not a real number?",
+                    when=no_numbers,
+                ),
                 Mistake("amplitude first", "The load comes first, then the amplitude.", lambda *given: lowest(*given)[::-1]),
                 Mistake(
                     "point at the buckling load",
@@ -283,6 +302,7 @@ PROOFS = {
     "at_buckling: 16 forgotten": ("np.cbrt(16 * delta / lam_j)", "np.cbrt(delta / lam_j)"),
     "fold: sign of the amplitude": ("A**2), A\n", "A**2), -A\n"),
     "fold: below the buckling load": ("lam_j * (1 + 3", "lam_j * (1 - 3"),
+    "fold: power of a negative number": ("np.cbrt(delta / lam_j)", "(delta / lam_j) ** (1 / 3)"),
     "fold: amplitude first": ("return lam_j * (1 + 3 / 8 * A**2), A\n", "return A, lam_j * (1 + 3 / 8 * A**2)\n"),
     "fold: point at the buckling load": ("return lam_j * (1 + 3 / 8 * A**2), A\n", "return lam_j, np.cbrt(16 * delta / lam_j)\n"),
 }

@@ -202,7 +202,11 @@ exercise = Exercise(
             mistakes=(
                 Mistake("counted from the largest", "j = 1 is the smallest eigenvalue.", at(0, turn=True)),
                 Mistake(
-                    "next one", "Where there are j eigenvalues below x, is the j-th one below or above it?", at(1), within=1e-5
+                    "next one",
+                    "Where there are j eigenvalues below x, is the j-th one below or above it?",
+                    when=lambda given: all(
+                        abs(v - at(1)(*a)) < 1e-5 for a, v in given if a[2] < a[0].size
+                    ),  # none follows the last
                 ),
             ),
             hint="Start with an interval that holds all eigenvalues, and halve it by the count at its middle.",
@@ -222,5 +226,5 @@ PROOFS = {
     ),
     "index: zero pivot counted as negative": ("pivot = tiny", "count, pivot = count + 1, tiny"),
     "eigenvalue: counted from the largest": ("middle) >= j", "middle) >= len(diagonal) + 1 - j"),
-    "eigenvalue: next one": ("middle) >= j", "middle) >= j % len(diagonal) + 1"),
+    "eigenvalue: next one": ("middle) >= j", "middle) > j"),
 }

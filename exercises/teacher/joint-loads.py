@@ -154,6 +154,16 @@ exercise = Exercise(
             properties=(against(1.0), tends(1)),
             mistakes=(
                 Mistake(
+                    "eigenvalues of the springs alone",
+                    "The load stands beside a factor h in the second derivative: at your loads, is its determinant zero?",
+                    lambda n: dense(n, 1.0) / n,
+                ),
+                Mistake(
+                    "loads of a strut of length n",
+                    "Your loads tend to zero as n grows. How long is a link, and how stiff is a spring?",
+                    lambda n: dense(n, 1.0) / n**2,
+                ),
+                Mistake(
                     "loads of the rod",
                     "n joints have n loads of their own; the rod's are their limits.",
                     lambda n: (odd(n) * np.pi / 2) ** 2,
@@ -199,6 +209,8 @@ PROOFS = {
     "hessian: load without h": ("lam * h * np.diag", "lam * np.diag"),
     "hessian: springs without h": ("stiffness / h", "stiffness"),
     "hessian: sign between neighbours": ("- np.eye(n, k=1) - np.eye(n, k=-1)", "+ np.eye(n, k=1) + np.eye(n, k=-1)"),
+    "loads: eigenvalues of the springs alone": ("return 4 * n**2 *", "return 4 * n *"),
+    "loads: loads of a strut of length n": ("return 4 * n**2 *", "return 4 *"),
     "loads: loads of the rod": ("4 * n**2 * np.sin(theta / 2) ** 2", "((2 * j - 1) * np.pi / 2) ** 2"),
     "loads: half the last weight": ("/ (2 * n + 1)", "/ (2 * n)"),
     "loads: every j instead of the odd ones": ("theta = (2 * j - 1) * np.pi", "theta = 2 * j * np.pi"),

@@ -14,7 +14,7 @@ and the other states lie on a detached branch that exists only beyond a fold, wh
    $\beta$ between $|\beta|$ and $\pi$ in size;
 2. `fold(beta)`, the fold with $|\phi| < \pi/2$, for $\beta$ of either sign: its angle and its load, two numbers `phi, lam`;
 3. `leading(beta)`, for $0 < \beta \ll 1$ the leading term of the angle at $\lambda = 1$, and the load of the fold in the form $1 + c \beta^p$
-   (without higher terms): two numbers, formulas in $\beta$.
+   (without higher terms): their values at the given $\beta$, two numbers.
 """
 
 # %% answer

@@ -112,6 +112,11 @@ exercise = Exercise(
             properties=(holds("balances the moments", lambda lam, phi, beta: abs(moment(phi, lam, beta)), 1e-10),),
             mistakes=(
                 Mistake("rest angle forgotten", "At which angle is the spring at rest?", lambda phi, beta: phi / np.sin(phi)),
+                Mistake(
+                    "sign of the load",
+                    "For a small beta, is a leaning strut held by a load that presses or by one that pulls?",
+                    lambda phi, beta: -balanced(phi, beta),
+                ),
             ),
             hint="Set the derivative of V to zero; it is linear in lam.",
         ),
@@ -192,6 +197,7 @@ exercise = Exercise(
 # %% proofs
 PROOFS = {
     "load: rest angle forgotten": ("return (phi - beta) / np.sin(phi)", "return phi / np.sin(phi)"),
+    "load: sign of the load": ("return (phi - beta) / np.sin(phi)", "return (beta - phi) / np.sin(phi)"),
     "hessian: load eliminated before differentiating": (
         "return 1 - lam * np.cos(phi)",
         "return 1 - lam * np.sin(phi) / (phi - beta)",

@@ -75,21 +75,22 @@ def limits(n, values, p):
 def error_lists(draw):
     for p in (1, 2, 4):
         n = sizes(draw, 4)
-        yield n, draw.uniform(1, 3) * draw.choice([-1.0, 1.0], size=4) * n**-p * (1 + draw.uniform(2, 9) / n)
+        signs = np.append(-1.0, draw.choice([-1.0, 1.0], size=3))
+        yield n, draw.uniform(1, 3) * signs * n**-p * (1 + draw.uniform(2, 9) / n)
 
 
 def value_lists(draw):
     for p in (1, 2, 4):
         n = sizes(draw, 4)
-        yield n / 10, draw.uniform(1, 3) + draw.uniform(20, 40) * (n / 10.0) ** -p * (1 + draw.uniform(0.2, 0.5) / n), p
+        yield n, draw.uniform(1, 3) + draw.uniform(20, 40) * (n / 10) ** -p * (1 + draw.uniform(0.2, 0.5) / n), p
 
 
 def floors(draw):
-    """Errors of order p that at a place meet a floor of rounding which grows; behind it one order is p by chance."""
-    for p, good in ((2, 4), (4, 2), (1, 1), (2, 6)):
-        n = sizes(draw, good + 5)
-        errors = np.append(draw.uniform(1, 3) * n[:good] ** -p, np.zeros(5))
-        for i, step in enumerate((0.4, 0.3, -1.0, p, -2.0), good):
+    """Errors of order p that at a place meet a floor of rounding which grows; behind it two orders are p by chance."""
+    for p, good, first in ((2, 4, 0.4), (4, 2, 4.9), (1, 1, 0.4), (2, 6, 2.8)):
+        n = sizes(draw, good + 6)
+        errors = np.append(draw.uniform(1, 3) * n[:good] ** -p, np.zeros(6))
+        for i, step in enumerate((first, 0.3, p, -1.0, p, -2.0), good):
             errors[i] = errors[i - 1] * (n[i] / n[i - 1]) ** -step
         yield n, errors * draw.choice([-1.0, 1.0], size=n.size), p, 0.2
 
@@ -123,6 +124,11 @@ exercise = Exercise(
                     "upside down",
                     "An error that falls by four when n doubles is of order two, not one half.",
                     lambda n, e: 1 / slopes(n, e),
+                ),
+                Mistake(
+                    "logarithm of a negative number",
+                    "An error may be negative; what counts is its size.",
+                    when=lambda given: any(np.any(np.isnan(np.asarray(value, dtype=float))) for _, value in given),
                 ),
                 Mistake(
                     "ratios without logarithms",
@@ -196,6 +202,10 @@ exercise = Exercise(
 
 # %% proofs
 PROOFS = {
+    "orders: logarithm of a negative number": (
+        "np.log(np.abs(errors))",
+        "np.where(errors > 0, np.log(np.abs(errors)), np.nan)",
+    ),
     "orders: sign": ("return -np.diff", "return np.diff"),
     "orders: ratio two assumed": ("/ np.diff(np.log(n))", "/ np.log(2)"),
     "orders: upside down": (

@@ -14,7 +14,7 @@ by Newton's method from $x + \ell t$, where the given length $\ell$ is positive.
 
 **Write**
 
-1. `tangent(phi, lam, previous)`, the unit tangent, of the two that one with $t \cdot$ `previous` $> 0$, shape (2,);
+1. `tangent(phi, lam, previous)`, of the two unit tangents the one with $t \cdot$ `previous` $> 0$, shape (2,);
 2. `step(phi, lam, beta, t, length)`, the next point $(\phi^+, \lambda^+)$ near the given one, shape (2,), for a unit tangent `t` of shape (2,);
 3. `branch(phi, lam, beta, direction, length, count)`: the start and `count` more points, one a row, shape (count + 1, 2). Each step uses the tangent
    at its own point; the first one has a positive product with `direction` (shape (2,)), each other one with the tangent before.
@@ -139,7 +139,9 @@ def unoriented(given):
 
 
 def turned_back(given):
-    return all(off_curves(np.array(v), *a) < 1e-8 and np.any(np.diff(np.array(v)[:, 0]) > 0) for a, v in given)
+    """True of rows on the curve that set out in the right direction and do not keep to it."""
+    forward = [np.diff(np.array(v)[:, 0]) < 0 for _, v in given]
+    return all(off_curves(np.array(v), *a) < 1e-8 and on[0] and not on.all() for (a, v), on in zip(given, forward, strict=True))
 
 
 exercise = Exercise(

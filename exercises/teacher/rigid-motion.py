@@ -11,7 +11,8 @@ u \times a$ for every $a$ and $u$ stands for the three components. Over a piece,
 
 1. `turn(R, u, h)`: the matrix $R$ at the end of a piece, shape (3, 3);
 2. `advance(R, u, v, h)`: the vector $r(h) - r(0)$ over a piece in the fixed frame, shape (3,);
-3. `rod(u, v, h, r0, R0)`: for `u`, `v` of shape (n, 3), a piece a row, the places of the ends of all pieces, `r0` first, shape (n + 1, 3).
+3. `rod(u, v, h, r0, R0)`: for `u`, `v` of shape (n, 3), a piece a row, the places of the ends of all pieces, shape (n + 1, 3). The rod
+   begins at `r0`, the first of them, with the matrix `R0`.
 
 Then move `r0` and `R0` by a rotation and a translation, and see the whole rod move with them.
 """

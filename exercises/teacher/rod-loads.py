@@ -11,7 +11,7 @@ larger $\lambda$ and continues for all larger loads; there are no others. Angles
 **Write**
 
 1. `loads(K, count)`, the first `count` buckling loads, ascending, shape (count,);
-2. `mode(j, s)`, the solution $\psi_j$ at an array `s` of arclengths, of any length and sign, the shape of `s`;
+2. `mode(j, s)`, the solution $\psi_j$ at an array `s` of arclengths, the shape of `s`; any multiple of it will do;
 3. `index(lam, K)`, the number of negative eigenvalues $\mu$ of $-K \psi'' - \lambda \psi = \mu \psi$ with the same ends, a whole number
    (`lam` is no buckling load);
 4. `equilibria(lam, K)`, the number of all equilibria at `lam`, a whole number.

@@ -9,7 +9,7 @@ proportional to $n$. A matrix of a strut of $10^5$ joints could not even be stor
 
 1. `pivots(diagonal, off_diagonal)`, the array of the pivots, shape $(n,)$;
 2. `solve(diagonal, off_diagonal, right)`, the solution $x$, shape $(n,)$;
-3. `determinant(diagonal, off_diagonal)`, the sign of $\det A$ ($1$ or $-1$) and the logarithm of its absolute value: two numbers. The determinant
+3. `determinant(diagonal, off_diagonal)`, the sign of $\det A$ ($1$ or $-1$) and the natural logarithm of its absolute value: two numbers. The determinant
    itself may be too large or too small for a floating point number.
 
 The matrices of the tests are such that no exchange of rows is needed: $|d_i| > |e_{i-1}| + |e_i|$, with $d_i$ of either sign. The largest has

@@ -9,9 +9,9 @@ $m' + t \times n = 0$, where $m' = w \times m$ as the components of $m$ in the t
 
 By symmetry the end force and end moment of a helix are a wrench along its axis. **Write**
 
-1. `force(kappa, tau, u3, K1, K3)`: components $(n_\nu, n_b, n_t)$ of the force, shape (3,), in units of $K/\text{length}^2$, with $n$ parallel to the axis;
-2. `axial_force(kappa, tau, u3, K1, K3)`: the force along the axis $w/|w|$, a number, positive in tension;
-3. `axial_moment(kappa, tau, u3, K1, K3)`: the component of $m$ along the axis, a number.
+1. `force(kappa, tau, u3, K1, K3)`: components $(n_\nu, n_b, n_t)$ of the force, shape (3,), with $n$ parallel to the axis;
+2. `axial_force(kappa, tau, u3, K1, K3)`: the component of the force along $w/|w|$, a number (for $\tau > 0$, tension is positive);
+3. `axial_moment(kappa, tau, u3, K1, K3)`: the component of $m$ along the same unit vector, a number.
 """
 
 # %% answer
@@ -82,7 +82,7 @@ def moment_along(*given):
 
 
 def calls(draw):
-    """Helices of either hand, twisted in the sense of their torsion: in tension and in compression, with no cancellation."""
+    """Helices of either hand, twisted in the sense of their torsion (so that no sum cancels); w points along t or against it."""
     for hand in (1, -1, 1, -1):
         kappa, tau, u3 = draw.uniform(0.5, 1.5), hand * draw.uniform(0.5, 1.5), hand * draw.uniform(2.5, 4)
         yield kappa, tau, u3, draw.uniform(1, 1.6), draw.uniform(1.7, 2.5)
@@ -132,12 +132,12 @@ exercise = Exercise(
             mistakes=(
                 Mistake(
                     "sign of the axial force",
-                    "Is it positive when the ends are pulled apart?",
+                    "Take a right-handed helix: is it positive when the ends are pulled apart?",
                     lambda *given: -force_along(*given),
                 ),
                 Mistake(
-                    "always in tension",
-                    "Can such a helix push its ends apart? Reverse both the torsion and the twist.",
+                    "size for component",
+                    "A component has a sign. Which way does w point along a left-handed helix, and which way the force?",
                     lambda *given: abs(force_along(*given)),
                 ),
                 Mistake(
@@ -187,7 +187,7 @@ PROOFS = {
     "force: torsion for twist": ("factor = K3 * u3 - K1 * tau", "factor = K3 * tau - K1 * tau"),
     "force: components interchanged": ("[0.0, factor * kappa, factor * tau]", "[0.0, factor * tau, factor * kappa]"),
     "axial_force: sign of the axial force": ("return (K3 * u3 - K1 * tau) * np", "return (K1 * tau - K3 * u3) * np"),
-    "axial_force: always in tension": ("return (K3 * u3 - K1 * tau) * np", "return abs(K3 * u3 - K1 * tau) * np"),
+    "axial_force: size for component": ("return (K3 * u3 - K1 * tau) * np", "return abs(K3 * u3 - K1 * tau) * np"),
     "axial_force: the tangential component": ("(K3 * u3 - K1 * tau) * np.sqrt(kappa**2 + tau**2)", "(K3 * u3 - K1 * tau) * tau"),
     "axial_force: not of unit length": ("- K1 * tau) * np.sqrt(kappa**2 + tau**2)", "- K1 * tau) * (kappa**2 + tau**2)"),
     "axial_moment: length of the axis forgotten": ("u3 * tau) / np.sqrt(kappa**2 + tau**2)", "u3 * tau)"),

@@ -134,6 +134,11 @@ exercise = Exercise(
                     "subcritical", "Is sin(phi) larger or smaller than phi? What load makes up for it?", lambda j: -curvature(j)
                 ),
                 Mistake("mode of length one", "Which component of the mode has to be one if phi_2 is the parameter?", unit),
+                Mistake(
+                    "second derivative for the coefficient",
+                    "At eps = 0.1 compare lam_j + c_j eps^2 with the load of a state: is it off by as much as it adds?",
+                    lambda j: 2 * curvature(j),
+                ),
                 Mistake("parameter phi_1", "Your coefficient belongs to the square of another angle than phi_2.", by_first),
                 Mistake(
                     "factorial of the sine", "Which is the cubic term of the sine's series?", lambda j: curvature(j, sine=1 / 2)
@@ -201,6 +206,7 @@ PROOFS = {
     "coefficient: subcritical": ("return lam / 6 *", "return -lam / 6 *"),
     "coefficient: mode of length one": ("1.0])\n", "1.0]) / np.hypot(1 - lam, 1)\n"),
     "coefficient: parameter phi_1": ("np.array([1 - lam, 1.0])", "np.array([1, 1 / (1 - lam)])"),
+    "coefficient: second derivative for the coefficient": ("return lam / 6 *", "return lam / 3 *"),
     "coefficient: factorial of the sine": ("return lam / 6 *", "return lam / 2 *"),
     "shape: mode upside down": ("return [1 - lam,", "return [1 / (1 - lam),"),
     "shape: load of the branch point in the cubic term": ("lam / 6 - coefficient(j)]", "lam / 6]"),

@@ -9,10 +9,10 @@ an index that goes 0, 1, 2.
 
 **Write**
 
-1. `hessian(phi, lam)`, the second derivative of $V$ at two angles, shape (2, 2);
+1. `hessian(phi, lam)`, the second derivative of $V$ at the two angles of the array `phi`, shape (2, 2);
 2. `branch_points()`, the two loads at which it is singular on the straight strut, ascending: numbers, or SymPy's exact ones;
-3. `modes()`, for each of them the null vector of the second derivative, one a row;
-4. `index(lam)`, the number of negative eigenvalues of the straight strut (not at a branch point).
+3. `modes()`, for each of them the null vector of the second derivative, of any length, one a row: shape (2, 2);
+4. `index(lam)`, the number of negative eigenvalues of the straight strut (not at a branch point), a whole number.
 """
 
 # %% answer
@@ -143,7 +143,11 @@ exercise = Exercise(
                     "These are the loads of a strut whose last link is held by two springs.",
                     lambda: np.array([1.0, 3.0]),
                 ),
-                Mistake("sign", "A strut that is pulled does not buckle.", lambda: -LOADS),
+                Mistake(
+                    "sign",
+                    "A strut that is pulled does not buckle.",
+                    when=lambda given: np.allclose(np.sort(np.array(given[0][1])), -LOADS[::-1], rtol=1e-6),
+                ),
                 Mistake("descending", "The smaller load comes first.", lambda: LOADS[::-1]),
             ),
             hint="On the straight strut all cosines are 1: the determinant is a quadratic in lam.",

@@ -41,7 +41,7 @@ def moment_along(*given):
 
 
 def calls(draw):
-    """Helices of either hand, twisted in the sense of their torsion: in tension and in compression, with no cancellation."""
+    """Helices of either hand, twisted in the sense of their torsion (so that no sum cancels); w points along t or against it."""
     for hand in (1, -1, 1, -1):
         kappa, tau, u3 = draw.uniform(0.5, 1.5), hand * draw.uniform(0.5, 1.5), hand * draw.uniform(2.5, 4)
         yield kappa, tau, u3, draw.uniform(1, 1.6), draw.uniform(1.7, 2.5)
@@ -91,12 +91,12 @@ exercise = Exercise(
             mistakes=(
                 Mistake(
                     "sign of the axial force",
-                    "Is it positive when the ends are pulled apart?",
+                    "Take a right-handed helix: is it positive when the ends are pulled apart?",
                     lambda *given: -force_along(*given),
                 ),
                 Mistake(
-                    "always in tension",
-                    "Can such a helix push its ends apart? Reverse both the torsion and the twist.",
+                    "size for component",
+                    "A component has a sign. Which way does w point along a left-handed helix, and which way the force?",
                     lambda *given: abs(force_along(*given)),
                 ),
                 Mistake(

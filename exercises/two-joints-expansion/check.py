@@ -75,6 +75,11 @@ exercise = Exercise(
                     "subcritical", "Is sin(phi) larger or smaller than phi? What load makes up for it?", lambda j: -curvature(j)
                 ),
                 Mistake("mode of length one", "Which component of the mode has to be one if phi_2 is the parameter?", unit),
+                Mistake(
+                    "second derivative for the coefficient",
+                    "At eps = 0.1 compare lam_j + c_j eps^2 with the load of a state: is it off by as much as it adds?",
+                    lambda j: 2 * curvature(j),
+                ),
                 Mistake("parameter phi_1", "Your coefficient belongs to the square of another angle than phi_2.", by_first),
                 Mistake(
                     "factorial of the sine", "Which is the cubic term of the sine's series?", lambda j: curvature(j, sine=1 / 2)

@@ -74,7 +74,9 @@ exercise = Exercise(
                 Mistake(
                     "null vector of length one",
                     "How is the null vector scaled here? Look at its second component.",
-                    lambda beta, j: component(beta, j) * abs(VECTORS[1, j - 1]),
+                    when=lambda given: all(  # whatever sign the vector has
+                        abs(abs(b / component(*a)) - abs(VECTORS[1, a[1] - 1])) < 1e-6 for a, b in given
+                    ),
                 ),
                 Mistake(
                     "null vector with its components interchanged",

@@ -93,7 +93,11 @@ exercise = Exercise(
                     "These are the loads of a strut whose last link is held by two springs.",
                     lambda: np.array([1.0, 3.0]),
                 ),
-                Mistake("sign", "A strut that is pulled does not buckle.", lambda: -LOADS),
+                Mistake(
+                    "sign",
+                    "A strut that is pulled does not buckle.",
+                    when=lambda given: np.allclose(np.sort(np.array(given[0][1])), -LOADS[::-1], rtol=1e-6),
+                ),
                 Mistake("descending", "The smaller load comes first.", lambda: LOADS[::-1]),
             ),
             hint="On the straight strut all cosines are 1: the determinant is a quadratic in lam.",

@@ -82,7 +82,7 @@ class Array:
 
     def read(self, value: Any, arguments: tuple[Any, ...]) -> Any:
         shape = self.shape(*arguments) if callable(self.shape) else self.shape
-        says = "an array of numbers is expected" if shape is None else f"an array of shape {shape} is expected"
+        says = "an array of real numbers is expected" if shape is None else f"an array of shape {shape} is expected"
         try:
             array = np.asarray(_numbers(value), dtype=np.float64)
         except (TypeError, ValueError, OverflowError):
@@ -200,7 +200,7 @@ def shown(value: Any, most: int = 60) -> str:
     if value is None:
         return "nothing (None): is there a return?"
     if isinstance(value, np.ndarray):
-        return f"an array of shape {value.shape}"
+        return f"an array of {'complex numbers of ' if value.dtype.kind == 'c' else ''}shape {value.shape}"
     text = repr(value) if not isinstance(value, dict) else "a dictionary"
     text = "".join(c if c.isprintable() else "?" for c in text)
     return text if len(text) <= most else text[: most - 3] + "..."
