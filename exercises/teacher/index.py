@@ -96,15 +96,15 @@ def matrices(draw):
 
 
 def shifts(draw):
-    """Between two eigenvalues of the upper half, where the diagonal's entries would give another count."""
-    for n in (4, 9, 20):
+    """Between two eigenvalues of the upper half, where the diagonal's entries, the index and those above would give another count."""
+    for n in (5, 9, 20):
         found = []
         while not found:
             diagonal, beside = made(draw, n, n // 4)
             values = spectrum(diagonal, beside)
             for c in range(n // 2 + 1, n):
                 x = (values[c - 1] + values[c]) / 2
-                if values[c] - values[c - 1] > 0.01 and np.sum(diagonal < x) != c:
+                if values[c] - values[c - 1] > 0.01 and np.sum(diagonal < x) not in (c, n - c, n // 4) and c != n - n // 4:
                     found.append(x)
         yield diagonal, beside, float(draw.choice(found))
 
@@ -156,7 +156,7 @@ exercise = Exercise(
                 Mistake("shift added", "The eigenvalues of which matrix are those of A less x?", lambda d, e, x: count(d, e, -x)),
                 Mistake(
                     "those above",
-                    "Which sign has a pivot that belongs to an eigenvalue below x?",
+                    "Which sign does an eigenvalue below x give to a pivot of A - x I?",
                     lambda d, e, x: d.size - count(d, e, x),
                 ),
                 Mistake("diagonal only", "The diagonal's entries are not yet the pivots.", lambda d, e, x: count(d, 0 * e, x)),

@@ -151,10 +151,10 @@ exercise = Exercise(
                 holds("converges: to rounding, or in the ratio 2/3 at a threefold root", converged, 0.01),
             ),
             mistakes=(
-                Mistake("step in the wrong direction", "What has f(z) + J w to be after the step?", when=begins(sign=1.0)),
+                Mistake("step in the wrong direction", "What should f(z) + J w be after the step?", when=begins(sign=1.0)),
                 Mistake(
                     "transposed Jacobian",
-                    "Row i of the Jacobian belongs to which: equation i or unknown i?",
+                    "Does row i of the Jacobian belong to equation i or to unknown i?",
                     when=begins(transposed=True),
                 ),
                 Mistake(

@@ -175,12 +175,12 @@ exercise = Exercise(
             mistakes=(
                 Mistake(
                     "square root",
-                    "Which is the first power of phi that is left of phi - sin(phi)?",
+                    "What is the first power of phi that is left in phi - sin(phi)?",
                     lambda beta: (np.sqrt(6 * beta), 1 + (3 * beta) ** (2 / 3) / 2),
                 ),
                 Mistake(
                     "sine's cubic for the tangent's",
-                    "The angle of the fold solves phi - tan(phi) = beta: which is the first term of that difference?",
+                    "The angle of the fold solves phi - tan(phi) = beta: what is the first term of that difference?",
                     lambda beta: ((6 * beta) ** (1 / 3), 1 + (6 * beta) ** (2 / 3) / 2),
                 ),
             ),

@@ -188,7 +188,7 @@ exercise = Exercise(
                 ),
                 Mistake(
                     "corrected at a fixed load",
-                    "Your corrector moves the angle alone, and would fail near the fold. Which is the second equation?",
+                    "Your corrector moves the angle alone, and would fail near the fold. What is the second equation?",
                     when=always(lambda x, start, t, length: x[1] - start[1] - length * t[1]),
                 ),
                 Mistake(
@@ -211,7 +211,7 @@ exercise = Exercise(
             mistakes=(
                 Mistake(
                     "turned back at the fold",
-                    "Behind the fold the load rises again: by what do you orient the tangent there?",
+                    "Beyond the fold the load turns: with which earlier vector do you compare the tangent there?",
                     when=turned_back,
                 ),
                 Mistake(

@@ -82,7 +82,7 @@ exercise = Exercise(
                 ),
                 Mistake("parameter phi_1", "Your coefficient belongs to the square of another angle than phi_2.", by_first),
                 Mistake(
-                    "factorial of the sine", "Which is the cubic term of the sine's series?", lambda j: curvature(j, sine=1 / 2)
+                    "factorial of the sine", "What is the cubic term of the sine's series?", lambda j: curvature(j, sine=1 / 2)
                 ),
             ),
             hint="Insert both series, collect the terms of order eps^3 and multiply them by the mode: what contains b_j drops out.",
