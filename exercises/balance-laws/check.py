@@ -33,9 +33,8 @@ def off(value, true):
 
 
 def drift(calls):
-    """Calls come in pairs: the same rod at two places."""
-    pairs = zip(calls[::2], calls[1::2], strict=True)
-    return max(abs(a - b) / max(abs(a), abs(b)) for one, two in pairs for a, b in zip(one.value, two.value, strict=True))
+    """Calls come in pairs: the same rod at two places; relative to the larger number, as m . n may nearly vanish."""
+    return max(off(np.array(two.value), np.array(one.value)) for one, two in zip(calls[::2], calls[1::2], strict=True))
 
 
 def forces(draw):
@@ -115,6 +114,11 @@ exercise = Exercise(
                     "sign of the moment of the force",
                     "The law has r' x n on the side of m'.",
                     lambda n, m, u, v: -np.cross(u, m) + np.cross(v, n),
+                ),
+                Mistake(
+                    "sign of the turning",
+                    "Without the moment of the force (v = 0) the moment is constant in space, as the force is. Compare with `force_rate`.",
+                    lambda n, m, u, v: np.cross(u, m) - np.cross(v, n),
                 ),
                 Mistake(
                     "sign", "Both terms stand on the side of m' in the law.", lambda n, m, u, v: np.cross(u, m) + np.cross(v, n)

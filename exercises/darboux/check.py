@@ -14,7 +14,8 @@ def turned(u):
 
 
 def triad(draw):
-    return turned(draw.normal(size=3)).T
+    Q = np.linalg.qr(draw.normal(size=(3, 3)))[0]
+    return Q * np.linalg.det(Q)  # right-handed
 
 
 def moving(draw):
@@ -103,6 +104,11 @@ exercise = Exercise(
                     "components along the triad",
                     "These are the u_i. The vector is the sum of u_i d_i.",
                     lambda d, dp: d @ true_vector(d, dp),
+                ),
+                Mistake(
+                    "every direction counted twice",
+                    "d_i x d_i' is u without its part along d_i. Add the three: how often is each part of u in the sum?",
+                    lambda d, dp: 2 * true_vector(d, dp),
                 ),
                 Mistake(
                     "the triad applied the wrong way",

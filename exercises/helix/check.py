@@ -126,6 +126,11 @@ exercise = Exercise(
                     "This is r'(s). Integrate it from 0 to s.",
                     lambda u, s: np.array([expm(t * np.cross(np.eye(3), u)) @ E3 for t in s]),
                 ),
+                Mistake(
+                    "constant of integration",
+                    "Where is your curve at s = 0, and where should it be?",
+                    lambda u, s: points(u, s) - np.cross(u, E3) / (np.asarray(u) @ u),
+                ),
                 Mistake("transposed", "One point a row.", lambda u, s: points(u, s).T),
             ),
             hint="Split e_3 into its part along u, which stays, and its part across u, which turns; then integrate.",

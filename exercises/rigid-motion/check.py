@@ -36,6 +36,11 @@ def places(u, v, h, r0, R0, *, step=moved, turn=turned):
     return np.array(r)
 
 
+def fails_if_straight(given):
+    """No number where u = 0, and only there."""
+    return all(np.any(np.isnan(np.array(value, dtype=float))) == (not np.any(arguments[1])) for arguments, value in given)
+
+
 def not_rigid(calls):
     """Calls come in pairs: the second begins elsewhere, moved by Q and c."""
     worst = 0.0
@@ -94,6 +99,11 @@ exercise = Exercise(
                     "Is your matrix a rotation? The columns must stay of unit length.",
                     lambda R, u, h: R @ (np.eye(3) + h * np.cross(np.eye(3), u)),
                 ),
+                Mistake(
+                    "no axis where u = 0",
+                    "Try u = 0, a piece that does not turn: what do you divide by?",
+                    when=fails_if_straight,
+                ),
                 Mistake("h forgotten", "The rotation grows with the length of the piece.", lambda R, u, h: turned(R, u, 1.0)),
             ),
             hint="A matrix exponential of a skew matrix, on the right side of R.",
@@ -120,6 +130,11 @@ exercise = Exercise(
                     lambda R, u, v, h: h * turned(R, u, h) @ v,
                 ),
                 Mistake(
+                    "divided by u = 0",
+                    "A piece with u = 0 is straight: its way is simpler than that of the others, and your formula has no value for it.",
+                    when=fails_if_straight,
+                ),
+                Mistake(
                     "inverse of the triad",
                     "Do the columns of R take components to vectors, or vectors to components?",
                     lambda R, u, v, h: moved(R.T, u, v, h),
@@ -132,8 +147,8 @@ exercise = Exercise(
             calls=rods,
             returns=Array(lambda u, *_: (len(u) + 1, 3)),
             properties=(
-                equals(places, 1e-10, says="is the rod of these strains"),
-                together("moves with its beginning as a rigid body", not_rigid, 1e-10),
+                equals(places, 1e-10, says="is the rod of these strains", points=1.5),
+                together("moves with its beginning as a rigid body", not_rigid, 1e-10, 0.5),
             ),
             mistakes=(
                 Mistake("first place missing", "n pieces have n + 1 ends.", lambda *given: places(*given)[1:]),

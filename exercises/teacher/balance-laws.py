@@ -77,9 +77,8 @@ def off(value, true):
 
 
 def drift(calls):
-    """Calls come in pairs: the same rod at two places."""
-    pairs = zip(calls[::2], calls[1::2], strict=True)
-    return max(abs(a - b) / max(abs(a), abs(b)) for one, two in pairs for a, b in zip(one.value, two.value, strict=True))
+    """Calls come in pairs: the same rod at two places; relative to the larger number, as m . n may nearly vanish."""
+    return max(off(np.array(two.value), np.array(one.value)) for one, two in zip(calls[::2], calls[1::2], strict=True))
 
 
 def forces(draw):
@@ -161,6 +160,11 @@ exercise = Exercise(
                     lambda n, m, u, v: -np.cross(u, m) + np.cross(v, n),
                 ),
                 Mistake(
+                    "sign of the turning",
+                    "Without the moment of the force (v = 0) the moment is constant in space, as the force is. Compare with `force_rate`.",
+                    lambda n, m, u, v: np.cross(u, m) - np.cross(v, n),
+                ),
+                Mistake(
                     "sign", "Both terms stand on the side of m' in the law.", lambda n, m, u, v: np.cross(u, m) + np.cross(v, n)
                 ),
             ),
@@ -202,6 +206,7 @@ PROOFS = {
     "moment_rate: turning of the triad forgotten": ("-turning - np", "-np"),
     "moment_rate: moment of the force forgotten": ("-turning - np.cross(v, n)", "-turning"),
     "moment_rate: sign of the moment of the force": ("-turning - np", "-turning + np"),
+    "moment_rate: sign of the turning": ("-turning - np", "turning - np"),
     "moment_rate: sign": ("-turning - np.cross(v, n)", "turning + np.cross(v, n)"),
     "invariants: length for its square": ("return n @ n, m @ n", "return np.sqrt(n @ n), m @ n"),
     "invariants: length of the moment": ("return n @ n, m @ n", "return n @ n, m @ m"),

@@ -60,7 +60,8 @@ def turned(u):
 
 
 def triad(draw):
-    return turned(draw.normal(size=3)).T
+    Q = np.linalg.qr(draw.normal(size=(3, 3)))[0]
+    return Q * np.linalg.det(Q)  # right-handed
 
 
 def moving(draw):
@@ -151,6 +152,11 @@ exercise = Exercise(
                     lambda d, dp: d @ true_vector(d, dp),
                 ),
                 Mistake(
+                    "every direction counted twice",
+                    "d_i x d_i' is u without its part along d_i. Add the three: how often is each part of u in the sum?",
+                    lambda d, dp: 2 * true_vector(d, dp),
+                ),
+                Mistake(
                     "the triad applied the wrong way",
                     "The sum of u_i d_i takes row i of d with u_i: is that d u or u d?",
                     lambda d, dp: d @ d @ true_vector(d, dp),
@@ -188,6 +194,7 @@ PROOFS = {
     "strain: rows for columns": ("d_prime @ d.T", "d_prime.T @ d"),
     "strain: order of the components": ("c[1, 2], c[2, 0], c[0, 1]", "c[0, 1], c[2, 0], c[1, 2]"),
     "darboux: components along the triad": ("components @ d", "components"),
+    "darboux: every direction counted twice": ("components @ d", "2 * components @ d"),
     "darboux: the triad applied the wrong way": ("components @ d", "d @ components"),
     "derivative: order of the cross product": ("np.cross(vector, d)", "np.cross(d, vector)"),
     "derivative: components for the vector": ("np.cross(vector, d)", "np.cross(u, d)"),

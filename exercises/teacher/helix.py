@@ -173,6 +173,11 @@ exercise = Exercise(
                     "This is r'(s). Integrate it from 0 to s.",
                     lambda u, s: np.array([expm(t * np.cross(np.eye(3), u)) @ E3 for t in s]),
                 ),
+                Mistake(
+                    "constant of integration",
+                    "Where is your curve at s = 0, and where should it be?",
+                    lambda u, s: points(u, s) - np.cross(u, E3) / (np.asarray(u) @ u),
+                ),
                 Mistake("transposed", "One point a row.", lambda u, s: points(u, s).T),
             ),
             hint="Split e_3 into its part along u, which stays, and its part across u, which turns; then integrate.",
@@ -201,6 +206,7 @@ PROOFS = {
         "turn / rate * along + np.sin(turn) / rate * across + (1 - np.cos(turn)) / rate * third",
         "along + np.cos(turn) * across + np.sin(turn) * third",
     ),
+    "centreline: constant of integration": ("(1 - np.cos(turn)) / rate", "-np.cos(turn) / rate"),
     "centreline: transposed": [
         ("return turn / rate * along", "return (turn / rate * along"),
         ("(1 - np.cos(turn)) / rate * third", "(1 - np.cos(turn)) / rate * third).T"),

@@ -5,12 +5,12 @@ the rod is: place and triad at $s = 0$ are free, and everything else follows by 
 so that the integration is exact.
 
 Collect the triad as the matrix $R$ whose *columns* are $d_1, d_2, d_3$ in the fixed frame. Then $R' = R\, [u]$, where $[u]$ is the skew matrix with $[u]\,a =
-u \times a$ for every $a$ and $u$ stands for the three components. Over a piece, $R(h) = R(0) \exp(h\,[u])$.
+u \times a$ for every $a$ and $u$ stands for the three components. Over a piece, $R(h) = R(0) \exp(h\,[u])$. Straight pieces, $u = 0$, occur.
 
 **Write**
 
 1. `turn(R, u, h)`: the matrix $R$ at the end of a piece, shape (3, 3);
-2. `advance(R, u, v, h)`: the vector $r(h) - r(0)$ over a piece in the fixed frame, shape (3,) (strains $u = 0$ occur);
+2. `advance(R, u, v, h)`: the vector $r(h) - r(0)$ over a piece in the fixed frame, shape (3,);
 3. `rod(u, v, h, r0, R0)`: for `u`, `v` of shape (n, 3), a piece a row, the places of the ends of all pieces, shape (n + 1, 3). The rod
    begins at `r0`, the first of them, with the matrix `R0`.
 
@@ -88,6 +88,11 @@ def places(u, v, h, r0, R0, *, step=moved, turn=turned):
     return np.array(r)
 
 
+def fails_if_straight(given):
+    """No number where u = 0, and only there."""
+    return all(np.any(np.isnan(np.array(value, dtype=float))) == (not np.any(arguments[1])) for arguments, value in given)
+
+
 def not_rigid(calls):
     """Calls come in pairs: the second begins elsewhere, moved by Q and c."""
     worst = 0.0
@@ -146,6 +151,11 @@ exercise = Exercise(
                     "Is your matrix a rotation? The columns must stay of unit length.",
                     lambda R, u, h: R @ (np.eye(3) + h * np.cross(np.eye(3), u)),
                 ),
+                Mistake(
+                    "no axis where u = 0",
+                    "Try u = 0, a piece that does not turn: what do you divide by?",
+                    when=fails_if_straight,
+                ),
                 Mistake("h forgotten", "The rotation grows with the length of the piece.", lambda R, u, h: turned(R, u, 1.0)),
             ),
             hint="A matrix exponential of a skew matrix, on the right side of R.",
@@ -172,6 +182,11 @@ exercise = Exercise(
                     lambda R, u, v, h: h * turned(R, u, h) @ v,
                 ),
                 Mistake(
+                    "divided by u = 0",
+                    "A piece with u = 0 is straight: its way is simpler than that of the others, and your formula has no value for it.",
+                    when=fails_if_straight,
+                ),
+                Mistake(
                     "inverse of the triad",
                     "Do the columns of R take components to vectors, or vectors to components?",
                     lambda R, u, v, h: moved(R.T, u, v, h),
@@ -184,8 +199,8 @@ exercise = Exercise(
             calls=rods,
             returns=Array(lambda u, *_: (len(u) + 1, 3)),
             properties=(
-                equals(places, 1e-10, says="is the rod of these strains"),
-                together("moves with its beginning as a rigid body", not_rigid, 1e-10),
+                equals(places, 1e-10, says="is the rod of these strains", points=1.5),
+                together("moves with its beginning as a rigid body", not_rigid, 1e-10, 0.5),
             ),
             mistakes=(
                 Mistake("first place missing", "n pieces have n + 1 ends.", lambda *given: places(*given)[1:]),
@@ -211,10 +226,24 @@ PROOFS = {
     "turn: turned about the fixed frame": ("R @ expm(h * skew)", "expm(h * skew) @ R"),
     "turn: sign of the skew matrix": ("R @ expm(h * skew)", "R @ expm(-h * skew)"),
     "turn: one step of Euler's method": ("R @ expm(h * skew)", "R @ (np.eye(3) + h * skew)"),
+    "turn: no axis where u = 0": (
+        "    return R @ expm(h * skew)",
+        """    with np.errstate(invalid="ignore"):
+        axis = skew / np.linalg.norm(u)
+        angle = h * np.linalg.norm(u)
+        return R @ (np.eye(3) + np.sin(angle) * axis + (1 - np.cos(angle)) * axis @ axis)""",
+    ),
     "turn: h forgotten": ("R @ expm(h * skew)", "R @ expm(skew)"),
     "advance: one step of Euler's method": ("R @ expm(h * big)[:3, 3]", "h * R @ v"),
     "advance: components for the vector": ("R @ expm(h * big)[:3, 3]", "expm(h * big)[:3, 3]"),
     "advance: triad at the end": ("R @ expm(h * big)[:3, 3]", "h * turn(R, u, h) @ v"),
+    "advance: divided by u = 0": (
+        "    return R @ expm(h * big)[:3, 3]",
+        """    with np.errstate(invalid="ignore"):
+        axis, rate = skew / np.linalg.norm(u), np.linalg.norm(u)
+        across, along = (1 - np.cos(h * rate)) / rate, h - np.sin(h * rate) / rate
+        return R @ (h * np.eye(3) + across * axis + along * axis @ axis) @ v""",
+    ),
     "advance: inverse of the triad": ("R @ expm(h * big)[:3, 3]", "R.T @ expm(h * big)[:3, 3]"),
     "rod: first place missing": ("np.array(places)", "np.array(places[1:])"),
     "rod: begins at the origin": ("[np.asarray(r0, dtype=float)]", "[np.zeros(3)]"),

@@ -1,7 +1,7 @@
 r"""# A straight rod held as a helix
 
 A uniform rod, straight when unstressed, inextensible, with bending stiffness $K_1 = K_2$ and twisting stiffness $K_3$, is held as a helix of
-curvature $\kappa > 0$ and torsion $\tau$, and twisted so that the component of its strain along the tangent $d_3$ is $u_3$ [N 2.5].
+curvature $\kappa > 0$ and torsion $\tau$ (of either sign), and twisted so that the component of its strain along the tangent $d_3$ is $u_3$ [N 2.5].
 
 Let $(\nu, b, t)$ be the normal, binormal and tangent of the helix. The Darboux vector of this triad is $w = \kappa\, b + \tau\, t$; it is the same at
 every point, and points along the axis of the helix. The moment is $m = K_1 \kappa\, b + K_3 u_3\, t$. By balance the force $n$ is constant, and
@@ -11,7 +11,7 @@ By symmetry the end force and end moment of a helix are a wrench along its axis.
 
 1. `force(kappa, tau, u3, K1, K3)`: components $(n_\nu, n_b, n_t)$ of the force, shape (3,), with $n$ parallel to the axis;
 2. `axial_force(kappa, tau, u3, K1, K3)`: the component of the force along $w/|w|$, a number (for $\tau > 0$, tension is positive);
-3. `axial_moment(kappa, tau, u3, K1, K3)`: the component of $m$ along the axis, a number.
+3. `axial_moment(kappa, tau, u3, K1, K3)`: the component of $m$ along the same unit vector, a number.
 """
 
 # %% answer
@@ -82,8 +82,9 @@ def moment_along(*given):
 
 
 def calls(draw):
-    for _ in range(4):
-        kappa, tau, u3 = draw.uniform(0.5, 1.5), draw.uniform(0.5, 1.5), draw.uniform(2.5, 4)
+    """Helices of either hand, twisted in the sense of their torsion (so that no sum cancels); w points along t or against it."""
+    for hand in (1, -1, 1, -1):
+        kappa, tau, u3 = draw.uniform(0.5, 1.5), hand * draw.uniform(0.5, 1.5), hand * draw.uniform(2.5, 4)
         yield kappa, tau, u3, draw.uniform(1, 1.6), draw.uniform(1.7, 2.5)
 
 
@@ -131,8 +132,13 @@ exercise = Exercise(
             mistakes=(
                 Mistake(
                     "sign of the axial force",
-                    "Is it positive when the ends are pulled apart?",
+                    "Take a right-handed helix: is it positive when the ends are pulled apart?",
                     lambda *given: -force_along(*given),
+                ),
+                Mistake(
+                    "size for component",
+                    "A component has a sign. Which way does w point along a left-handed helix, and which way the force?",
+                    lambda *given: abs(force_along(*given)),
                 ),
                 Mistake(
                     "the tangential component",
@@ -181,6 +187,7 @@ PROOFS = {
     "force: torsion for twist": ("factor = K3 * u3 - K1 * tau", "factor = K3 * tau - K1 * tau"),
     "force: components interchanged": ("[0.0, factor * kappa, factor * tau]", "[0.0, factor * tau, factor * kappa]"),
     "axial_force: sign of the axial force": ("return (K3 * u3 - K1 * tau) * np", "return (K1 * tau - K3 * u3) * np"),
+    "axial_force: size for component": ("return (K3 * u3 - K1 * tau) * np", "return abs(K3 * u3 - K1 * tau) * np"),
     "axial_force: the tangential component": ("(K3 * u3 - K1 * tau) * np.sqrt(kappa**2 + tau**2)", "(K3 * u3 - K1 * tau) * tau"),
     "axial_force: not of unit length": ("- K1 * tau) * np.sqrt(kappa**2 + tau**2)", "- K1 * tau) * (kappa**2 + tau**2)"),
     "axial_moment: length of the axis forgotten": ("u3 * tau) / np.sqrt(kappa**2 + tau**2)", "u3 * tau)"),

@@ -41,8 +41,9 @@ def moment_along(*given):
 
 
 def calls(draw):
-    for _ in range(4):
-        kappa, tau, u3 = draw.uniform(0.5, 1.5), draw.uniform(0.5, 1.5), draw.uniform(2.5, 4)
+    """Helices of either hand, twisted in the sense of their torsion (so that no sum cancels); w points along t or against it."""
+    for hand in (1, -1, 1, -1):
+        kappa, tau, u3 = draw.uniform(0.5, 1.5), hand * draw.uniform(0.5, 1.5), hand * draw.uniform(2.5, 4)
         yield kappa, tau, u3, draw.uniform(1, 1.6), draw.uniform(1.7, 2.5)
 
 
@@ -90,8 +91,13 @@ exercise = Exercise(
             mistakes=(
                 Mistake(
                     "sign of the axial force",
-                    "Is it positive when the ends are pulled apart?",
+                    "Take a right-handed helix: is it positive when the ends are pulled apart?",
                     lambda *given: -force_along(*given),
+                ),
+                Mistake(
+                    "size for component",
+                    "A component has a sign. Which way does w point along a left-handed helix, and which way the force?",
+                    lambda *given: abs(force_along(*given)),
                 ),
                 Mistake(
                     "the tangential component",
