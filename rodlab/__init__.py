@@ -34,10 +34,10 @@ if TYPE_CHECKING:
     from rodlab.analysis.unfolding import branch_points, folds
     from rodlab.analysis.vary import vary
     from rodlab.lab.census import census
-    from rodlab.lab.course import check, hint
     from rodlab.lab.equilibria import Equilibria, all_equilibria
     from rodlab.lab.saved import read
     from rodlab.lab.studies.study import Study, study
+    from rodlab.lab.teaching.course import check, hint
     from rodlab.mechanics.buckling import Buckling, buckling, buckling_loads
     from rodlab.mechanics.conjugate import conjugate_points
     from rodlab.mechanics.convexity import uniqueness
@@ -85,7 +85,7 @@ _HOME = {
     "buckling": "mechanics.buckling",
     "buckling_loads": "mechanics.buckling",
     "census": "lab.census",
-    "check": "lab.course",
+    "check": "lab.teaching.course",
     "conjugate_points": "mechanics.conjugate",
     "deflation": "analysis.deflation",
     "diagram": "analysis.diagram",
@@ -100,7 +100,7 @@ _HOME = {
     "folds": "analysis.unfolding",
     "follow": "analysis.follow",
     "foundation": "mechanics.terms",
-    "hint": "lab.course",
+    "hint": "lab.teaching.course",
     "imperfection": "analysis.imperfection",
     "indices": "mechanics.indices",
     "invariants": "mechanics.invariants",

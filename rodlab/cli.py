@@ -255,8 +255,8 @@ def check(chosen: argparse.Namespace) -> int:
     """rodlab check"""
     from pathlib import Path
 
-    from rodlab.lab.checking import check_class, check_one
     from rodlab.lab.store import as_json, framed
+    from rodlab.lab.teaching.checking import check_class, check_one
 
     start = time.perf_counter()
     if chosen.folder is not None:
@@ -276,8 +276,8 @@ def check(chosen: argparse.Namespace) -> int:
 
 def exercises(chosen: argparse.Namespace) -> int:
     """rodlab exercises"""
-    from rodlab.lab.checking import listed, made
     from rodlab.lab.store import as_json, framed
+    from rodlab.lab.teaching.checking import listed, made
 
     answer, text = made(chosen) if getattr(chosen, "make", None) else listed(chosen)
     print(as_json(framed("exercises", 0.0, answer)) if chosen.json else text)

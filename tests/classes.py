@@ -3,7 +3,7 @@
 import random
 from pathlib import Path
 
-from rodlab.lab.taught import taught
+from rodlab.lab.teaching.taught import taught
 
 ROOT = Path(__file__).parents[1]
 TEACHER = sorted((ROOT / "exercises" / "teacher").glob("*.py"))

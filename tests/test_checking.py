@@ -21,11 +21,11 @@ from classes import ROOT, write_class
 import rodlab as rl
 from rodlab.cli import main
 from rodlab.grading.sandbox import Limits
-from rodlab.lab.class_picture import class_picture
-from rodlab.lab.classroom import grade_class
-from rodlab.lab.course import check_paths, exercise
-from rodlab.lab.submissions import read, submissions
-from rodlab.lab.taught import make, taught
+from rodlab.lab.teaching.class_picture import class_picture
+from rodlab.lab.teaching.classroom import grade_class
+from rodlab.lab.teaching.course import check_paths, exercise
+from rodlab.lab.teaching.submissions import read, submissions
+from rodlab.lab.teaching.taught import make, taught
 
 TWO = taught(ROOT / "exercises" / "teacher" / "two-joints.py")
 PAIR = ("gradient", "two-joints")
@@ -443,14 +443,14 @@ def test_what_is_changed_while_it_is_judged_is_judged_again(tmp_path, monkeypatc
         return report
 
     with monkeypatch.context() as changed:
-        changed.setattr("rodlab.lab.classroom.check_paths", slowly)
+        changed.setattr("rodlab.lab.teaching.classroom.check_paths", slowly)
         assert grade_class(tmp_path / "class", tmp_path / "out", seed=1, limits=QUICK).records[0]["percent"] == 0.0
     assert grade_class(tmp_path / "class", tmp_path / "out", seed=1, limits=QUICK).records[0]["percent"] == 100.0
 
 
 def test_a_check_that_fails_is_said_and_stops_nothing(tmp_path, monkeypatch):
     write_class(tmp_path / "class", 2, exercises=PAIR)
-    monkeypatch.setattr("rodlab.lab.classroom.check_paths", lambda *_, **__: 1 / 0)
+    monkeypatch.setattr("rodlab.lab.teaching.classroom.check_paths", lambda *_, **__: 1 / 0)
     graded = grade_class(tmp_path / "class", tmp_path / "out")
     assert {r["status"] for r in graded.records} == {"not judged"}
     assert all("the check failed: ZeroDivisionError" in r["message"] for r in graded.records)

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rodlab.lab import course
-from rodlab.lab.taught import folder_of, index, taught
+from rodlab.lab.teaching import course
+from rodlab.lab.teaching.taught import folder_of, index, taught
 
 ROOT = Path(__file__).parents[1]
 TEACHER = sorted((ROOT / "exercises" / "teacher").glob("*.py"))
@@ -36,7 +36,7 @@ def judged(name, source, seed=None):
 def test_the_folder_is_the_teachers_file_without_its_solutions(name):
     found = taught(FILES[name])
     for file, text in folder_of(found).items():
-        assert (ROOT / "exercises" / name / file).read_text() == text, f"run: python -m rodlab.lab.taught {FILES[name]}"
+        assert (ROOT / "exercises" / name / file).read_text() == text, f"run: python -m rodlab.lab.teaching.taught {FILES[name]}"
     assert "SOLUTION" not in found.stub
     cells = json.loads(folder_of(found)["answer.ipynb"])["cells"]
     assert [cell["cell_type"] for cell in cells] == ["markdown", "code", "code"]

@@ -20,8 +20,8 @@ from rodlab.grading import process, sandbox, walls
 from rodlab.grading.formula import Formula, Unreadable
 from rodlab.grading.plain import Code, Other, Written, decode, encode
 from rodlab.grading.sandbox import Limits, Sandbox, Stopped
-from rodlab.lab import course
-from rodlab.lab.taught import taught
+from rodlab.lab.teaching import course
+from rodlab.lab.teaching.taught import taught
 
 ROOT = Path(__file__).parents[1]
 HOSTILE = sorted((ROOT / "tests" / "hostile").glob("*.py"))

@@ -19,8 +19,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from classes import TEACHER, write_class
 
-from rodlab.lab.course import check, check_source, exercise
-from rodlab.lab.taught import taught
+from rodlab.lab.teaching.course import check, check_source, exercise
+from rodlab.lab.teaching.taught import taught
 
 MOST = 300.0  # seconds for 200 submissions on 2 cores
 

@@ -47,7 +47,7 @@ def imported():
 def by_spec():
     import importlib.util
 
-    return importlib.import_module("rodlab.lab.course").exercise("two-joints")
+    return importlib.import_module("rodlab.lab.teaching.course").exercise("two-joints")
 
 
 def zipped():

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from rodlab.lab.picture import figure
-from rodlab.lab.tally import frequent
+from rodlab.lab.teaching.tally import frequent
 
 STATES = {  # of a submission: its name, grey, hatch
     "right": ("all right", "0.25", ""),

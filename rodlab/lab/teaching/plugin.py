@@ -21,8 +21,8 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> "Answer | 
     """A script that says which exercise it is for, or lies in a folder of its name."""
     if not parent.config.getoption("--exercises", default=False) or file_path.suffix != ".py" or file_path.name == "check.py":
         return None
-    from rodlab.lab.course import names
-    from rodlab.lab.submissions import named
+    from rodlab.lab.teaching.course import names
+    from rodlab.lab.teaching.submissions import named
 
     name = named(file_path, names())
     if name is None or (file_path.parent.name == "teacher"):
@@ -39,8 +39,8 @@ class Answer(pytest.File):
 
     def collect(self) -> Iterator["Item"]:
         """An item for each property of each question."""
-        from rodlab.lab.course import check_source, exercise
-        from rodlab.lab.submissions import read
+        from rodlab.lab.teaching.course import check_source, exercise
+        from rodlab.lab.teaching.submissions import read
 
         seed: int | None = self.config.getoption("--exercises-seed")
         try:

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from rodlab.files import write_whole
-from rodlab.lab.classroom import Watch, grade_class
-from rodlab.lab.course import check_paths, exercise, home, names
-from rodlab.lab.gradescope import of_report, results, unreadable
-from rodlab.lab.submissions import answers_in, named
 from rodlab.lab.table import table
-from rodlab.lab.tally import summary
+from rodlab.lab.teaching.classroom import Watch, grade_class
+from rodlab.lab.teaching.course import check_paths, exercise, home, names
+from rodlab.lab.teaching.gradescope import of_report, results, unreadable
+from rodlab.lab.teaching.submissions import answers_in, named
+from rodlab.lab.teaching.tally import summary
 
 Answered = tuple[dict[str, Any], str, int]
 
@@ -90,7 +90,7 @@ def listed(chosen: argparse.Namespace) -> tuple[dict[str, Any], str]:
 
 def made(chosen: argparse.Namespace) -> tuple[dict[str, Any], str]:
     """Folders made from teachers' files."""
-    from rodlab.lab.taught import make, make_graded
+    from rodlab.lab.teaching.taught import make, make_graded
 
     out = Path(chosen.out) if chosen.out else None
     written: list[Path] = []

@@ -22,12 +22,12 @@ from typing import Any
 
 from rodlab.files import swept, write_whole
 from rodlab.grading.sandbox import Limits
-from rodlab.lab.course import check_paths, exercise, home, names
-from rodlab.lab.gradescope import of_report, results
 from rodlab.lab.store import as_csv
 from rodlab.lab.studies.journal import Journal
 from rodlab.lab.studies.provenance import fingerprint
-from rodlab.lab.submissions import LONGEST, Submission, read, submissions
+from rodlab.lab.teaching.course import check_paths, exercise, home, names
+from rodlab.lab.teaching.gradescope import of_report, results
+from rodlab.lab.teaching.submissions import LONGEST, Submission, read, submissions
 
 COLUMNS = ("student", "exercise", "score", "max_score", "percent", "status", "mistakes", "message")
 MOST = 8  # files of one student for one exercise
@@ -66,8 +66,8 @@ class Class:
 
     def write(self, out: Path) -> list[Path]:
         """Write tables, Gradescope's files and the picture, each whole."""
-        from rodlab.lab.class_picture import class_picture
         from rodlab.lab.picture import png
+        from rodlab.lab.teaching.class_picture import class_picture
 
         written = [write_whole(out / "grades.csv", as_csv(COLUMNS, [[_safe(r[name]) for name in COLUMNS] for r in self.records]))]
         written.append(write_whole(out / "students.csv", self._by_student()))

@@ -5,7 +5,7 @@
 # %% checks            -> check.py
 # %% proofs            -> stays: for each classic mistake the edit of the answer that makes it, which the tests try
 
-python -m rodlab.lab.taught exercises/teacher/*.py       makes the folders beside `teacher`
+python -m rodlab.lab.teaching.taught exercises/teacher/*.py       makes the folders beside `teacher`
 """
 
 import ast

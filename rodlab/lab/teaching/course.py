@@ -17,9 +17,9 @@ from rodlab.grading.directly import Directly
 from rodlab.grading.exercise import Exercise, faulty
 from rodlab.grading.grade import Report, grade
 from rodlab.grading.sandbox import Limits, Sandbox
-from rodlab.lab.submissions import answers_in, read
+from rodlab.lab.teaching.submissions import answers_in, read
 
-PACKAGE = Path(__file__).resolve().parents[1]
+PACKAGE = Path(__file__).resolve().parents[2]
 
 
 def home() -> Path:
