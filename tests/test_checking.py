@@ -70,6 +70,8 @@ def test_a_report_is_a_page_and_a_text():
     ("call", "sentence"),
     [
         (lambda: rl.check("two-joint", {}), r"exercise must be one of the course's \d+, such as two-joints.*it is 'two-joint'"),
+        (lambda: rl.check(3, {}), r"exercise must be one of the course's \d+, .*it is 3"),
+        (lambda: rl.check("two-joints", {}, seed="x"), r"seed must be a whole number of at least 0; it is 'x'"),
         (lambda: rl.check("two-joints", 3), r"answer must be functions named hessian, branch_points.*it is 3"),
         (lambda: rl.check("two-joints", "nowhere.py"), r"nowhere.py cannot be read: No such file"),
         (lambda: rl.check("two-joints", "answer.txt"), r"a submission must be a .py or .ipynb file"),
@@ -144,8 +146,8 @@ def test_the_stub_of_the_course_is_checked_by_its_folder(capsys):
         (["{}", "--exercise", "two"], "exercise must be one of the course's"),
         (["{}"], "does not say which exercise it answers"),
         (["--seed", "3"], "--seed must be given with an ANSWER or --class"),
-        (["{}/answer.py", "--exercise", "two-joints", "--seed", "-1"], "seed must be at least 0; it is -1"),
-        (["--class", "{}", "--out", "{}/out", "--seed", "-1"], "seed must be at least 0; it is -1"),
+        (["{}/answer.py", "--exercise", "two-joints", "--seed", "-1"], "seed must be a whole number of at least 0; it is -1"),
+        (["--class", "{}", "--out", "{}/out", "--seed", "-1"], "seed must be a whole number of at least 0; it is -1"),
         (["{}/missing/two-joints"], "a submission must be a .py or .ipynb file"),
         (["{}/empty", "--exercise", "two-joints"], "it holds no .py or .ipynb file"),
         (["{}", "--jobs", "2"], "--jobs must be given with --class only"),
@@ -300,9 +302,17 @@ def test_submissions_are_found_by_student_and_exercise(tmp_path):
         (tmp_path / place).write_text("# rodlab exercise: gradient\n" if place == "ben.py" else "x = 1\n")
     (tmp_path / "eve").mkdir()
     (tmp_path / "eve" / "two-joints.py").symlink_to(ROOT / "exercises" / "teacher" / "two-joints.py")
+    (tmp_path / "zoe").symlink_to(ROOT / "exercises" / "teacher")
     found = {(s.student, s.exercise) for s in submissions(tmp_path, PAIR)}
-    assert found == {("ann", "two-joints"), ("ann", "gradient"), ("ben", "gradient"), ("ben", ""), ("eve", "two-joints")}
-    assert {s.student for s in submissions(tmp_path, PAIR, "two-joints")} == {"ann", "ben", "eve"}
+    assert found == {
+        ("zoe", ""),
+        ("ann", "two-joints"),
+        ("ann", "gradient"),
+        ("ben", "gradient"),
+        ("ben", ""),
+        ("eve", "two-joints"),
+    }
+    assert {s.student for s in submissions(tmp_path, PAIR, "two-joints")} == {"ann", "ben", "eve", "zoe"}
     graded = grade_class(tmp_path, tmp_path / "out", seed=1, jobs=2, limits=QUICK)
     eve = next(r for r in graded.records if r["student"] == "eve")
     assert (eve["score"], eve["status"]) == (0.0, "not readable")

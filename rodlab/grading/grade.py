@@ -143,8 +143,8 @@ def grade(exercise: Exercise, answer: Answer, *, seed: int | None = None) -> Rep
     >>> grade(exercise, Directly({"twice": lambda x: -x - x})).mistakes
     ('twice: sign',)
     """
-    if seed is not None and seed < 0:
-        raise ValueError(f"seed must be at least 0; it is {seed}")
+    if seed is not None and (not hasattr(seed, "__index__") or seed < 0):
+        raise ValueError(f"seed must be a whole number of at least 0; it is {seed!r}")
     parts = [(VISIBLE, False)] if seed is None else [(VISIBLE, False), (seed, True)]
     items: list[Item] = []
     for start, hidden in parts:

@@ -78,7 +78,6 @@ def _plain(axes: Axes) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.tick_params(axis="y", length=0, labelsize=8)
     axes.tick_params(axis="x", labelsize=8)
-    axes.margins(x=0.02)
-    axes.set_xlim(left=0)
+    axes.set_xlim(0.0, 1.01 * max(axes.dataLim.x1, 1.0))
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)

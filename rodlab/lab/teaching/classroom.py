@@ -108,7 +108,7 @@ def grade_class(
     if only is not None:
         exercise(only, course)
     if seed is not None and seed < 0:
-        raise ValueError(f"seed must be at least 0; it is {seed}")
+        raise ValueError(f"seed must be a whole number of at least 0; it is {seed}")
     if jobs < 1:
         raise ValueError(f"jobs must be at least 1; it is {jobs}")
     papers = [Paper(found) for found in submissions(folder, names(course), only)]
@@ -146,7 +146,9 @@ def _record(submission: Submission, course: Path | None, seed: int, limits: Limi
         asked = exercise(submission.exercise, course)
     except ValueError:
         files = ", ".join(path.name for path in submission.paths)
-        return _row(submission, 0.0, 0.0, "not judged", f"{files}: for which exercise is this? Its first line should say so")
+        linked = all(path.is_symlink() for path in submission.paths)
+        why = "links are not followed" if linked else "for which exercise is this? Its first line should say so"
+        return _row(submission, 0.0, 0.0, "not judged", f"{files}: {why}")
     try:
         if len(submission.paths) > MOST:
             raise ValueError(f"for one exercise at most {MOST} files are read; here are {len(submission.paths)}")

@@ -38,10 +38,10 @@ def names(course: Path | None = None) -> list[str]:
 def exercise(name: str, course: Path | None = None) -> Exercise:
     """An exercise by its name; `ValueError` in one sentence if there is none of it."""
     known = names(course)
-    if name not in known:
+    if not isinstance(name, str) or name not in known:
         from difflib import get_close_matches
 
-        near = get_close_matches(name, known, 3) or known[:3]
+        near = get_close_matches(str(name), known, 3) or known[:3]
         raise ValueError(f"exercise must be one of the course's {len(known)}, such as {', '.join(near)}; it is {name!r}")
     return _loaded((course or home()) / name / "check.py")
 

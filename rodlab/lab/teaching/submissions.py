@@ -172,4 +172,7 @@ def submissions(folder: Path, known: Iterable[str], only: str | None = None) -> 
         exercise = named(path, known) or only or ""
         if not _is_folder(path) and (only is None or exercise == only):
             found.setdefault((student, exercise), []).append(path)
+    for path in sorted(folder.iterdir()):
+        if path.is_symlink() and _is_folder(path):  # of a student, who must have a row
+            found.setdefault((path.name, only or ""), []).append(path)
     return [Submission(student, exercise, tuple(paths)) for (student, exercise), paths in sorted(found.items())]
