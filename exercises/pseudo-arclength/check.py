@@ -52,15 +52,15 @@ def off_curve(x, start, beta, length):
 
 
 def off_curves(rows, phi, lam, beta, direction, length, count):
-    return max(off_curve(b, a, beta, length) for a, b in pairwise(rows)) + np.max(np.abs(rows[0] - (phi, lam)))
+    return np.max([off_curve(b, a, beta, length) for a, b in pairwise(rows)]) + np.max(np.abs(rows[0] - (phi, lam)))
 
 
 def off_planes(rows, phi, lam, beta, direction, length, count):
-    far, t = 0.0, direction
+    far, t = [], direction
     for a, b in pairwise(rows):
         t = along(*a, t)
-        far = max(far, abs(t @ (b - a) - length))
-    return far
+        far.append(abs(t @ (b - a) - length))
+    return np.max(far)
 
 
 def through(rows, *given):
