@@ -23,7 +23,7 @@ from rodlab.cli import main
 from rodlab.grading.sandbox import Limits
 from rodlab.lab.teaching.class_picture import class_picture
 from rodlab.lab.teaching.classroom import grade_class
-from rodlab.lab.teaching.course import check_paths, exercise
+from rodlab.lab.teaching.course import check_sources, exercise
 from rodlab.lab.teaching.submissions import read, submissions
 from rodlab.lab.teaching.taught import make, taught
 
@@ -448,19 +448,19 @@ def test_what_is_changed_while_it_is_judged_is_judged_again(tmp_path, monkeypatc
     path.write_text(TWO.stub)
 
     def slowly(*given, **more):
-        report = check_paths(*given, **more)
+        report = check_sources(*given, **more)
         path.write_text(TWO.reference)
         return report
 
     with monkeypatch.context() as changed:
-        changed.setattr("rodlab.lab.teaching.classroom.check_paths", slowly)
+        changed.setattr("rodlab.lab.teaching.classroom.check_sources", slowly)
         assert grade_class(tmp_path / "class", tmp_path / "out", seed=1, limits=QUICK).records[0]["percent"] == 0.0
     assert grade_class(tmp_path / "class", tmp_path / "out", seed=1, limits=QUICK).records[0]["percent"] == 100.0
 
 
 def test_a_check_that_fails_is_said_and_stops_nothing(tmp_path, monkeypatch):
     write_class(tmp_path / "class", 2, exercises=PAIR)
-    monkeypatch.setattr("rodlab.lab.teaching.classroom.check_paths", lambda *_, **__: 1 / 0)
+    monkeypatch.setattr("rodlab.lab.teaching.classroom.check_sources", lambda *_, **__: 1 / 0)
     graded = grade_class(tmp_path / "class", tmp_path / "out")
     assert {r["status"] for r in graded.records} == {"not judged"}
     assert all("the check failed: ZeroDivisionError" in r["message"] for r in graded.records)

@@ -128,7 +128,7 @@ def test_each_classic_mistake_has_its_own_hint(name):
 def test_statement_and_checks_are_whole(name):
     found = taught(FILES[name])
     exercise = course.exercise(name)
-    functions = {node.name for node in ast.parse(found.answer).body if isinstance(node, ast.FunctionDef)}
+    functions = {node.name for node in ast.parse(found.reference).body if isinstance(node, ast.FunctionDef)}
     for question in exercise.questions:
         assert question.name in functions
         assert f"`{question.name}(" in found.statement, f"the statement does not say what {question.name} is"

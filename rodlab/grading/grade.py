@@ -5,6 +5,7 @@ grade(exercise, answer, seed) -> Report: items, each one property of one questio
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
@@ -143,8 +144,7 @@ def grade(exercise: Exercise, answer: Answer, *, seed: int | None = None) -> Rep
     >>> grade(exercise, Directly({"twice": lambda x: -x - x})).mistakes
     ('twice: sign',)
     """
-    if seed is not None and (not hasattr(seed, "__index__") or seed < 0):
-        raise ValueError(f"seed must be a whole number of at least 0; it is {seed!r}")
+    check_seed(seed)
     parts = [(VISIBLE, False)] if seed is None else [(VISIBLE, False), (seed, True)]
     items: list[Item] = []
     for start, hidden in parts:
@@ -154,19 +154,25 @@ def grade(exercise: Exercise, answer: Answer, *, seed: int | None = None) -> Rep
     return Report(exercise.name, exercise.title, tuple(items), VISIBLE if seed is None else seed, answer.protections)
 
 
+def check_seed(seed: int | None) -> None:
+    """`ValueError` in one sentence for what cannot seed fresh parameters."""
+    if seed is not None and (not hasattr(seed, "__index__") or seed < 0):
+        raise ValueError(f"seed must be a whole number of at least 0; it is {seed!r}")
+
+
 def _asked(question: Question, answer: Answer, draw: np.random.Generator, *, hidden: bool, share: float) -> list[Item]:
     """The items of one question."""
     calls = _calls(question, draw)
-    fail = _Failed(question, share, hidden)
+    failed = partial(_failed, question, share, hidden)
     try:
         values = answer.ask(question.name, calls, question.seconds)
     except Stopped as why:
-        return fail.all(str(why), "unanswered" if why.unanswered else "lost")
+        return failed(str(why), "unanswered" if why.unanswered else "lost")
     given = list(zip(calls, values, strict=True))
     try:
         read = [Call(a, question.returns.read(value, a), question.returns) for a, value in given]
     except Wrong as why:
-        return fail.all(f"returns {why}", *_recognised(question, given))
+        return failed(f"returns {why}", *_recognised(question, given))
     measured = [p.measured(read) for p in question.properties]
     right = [m <= p.allowed for m, p in zip(measured, question.properties, strict=True)]
     status, mistake, hint = ("right", "", "") if all(right) else _recognised(question, given)
@@ -201,29 +207,14 @@ def _recognised(question: Question, given: list[tuple[tuple[Any, ...], Any]]) ->
     return "wrong", "", ""
 
 
-class _Failed:
-    """A question of which nothing could be measured."""
-
-    def __init__(self, question: Question, share: float, hidden: bool) -> None:
-        self.question, self.share, self.hidden = question, share, hidden
-
-    def all(self, message: str, status: str, mistake: str = "", hint: str = "") -> list[Item]:
-        return [
-            Item(
-                self.question.name,
-                p.says,
-                0.0,
-                self.share * p.points,
-                None,
-                p.allowed,
-                message,
-                mistake,
-                hint,
-                status,
-                self.hidden,
-            )
-            for p in self.question.properties
-        ]
+def _failed(
+    question: Question, share: float, hidden: bool, message: str, status: str, mistake: str = "", hint: str = ""
+) -> list[Item]:
+    """The items of a question of which nothing could be measured."""
+    return [
+        Item(question.name, p.says, 0.0, share * p.points, None, p.allowed, message, mistake, hint, status, hidden)
+        for p in question.properties
+    ]
 
 
 def _not(says: str, measured: float, allowed: float) -> str:

@@ -11,7 +11,7 @@ import mpmath
 import numpy as np
 
 from rodlab.grading.formula import Formula, Unreadable
-from rodlab.grading.plain import Other, Written
+from rodlab.grading.plain import Written
 
 
 class Wrong(Exception):
@@ -29,7 +29,7 @@ class Kind(Protocol):
 
 
 class Number:
-    """One real number (or, where allowed, a complex one); a text is the kind's name in sentences.
+    """One real number, or one whole number.
 
     >>> Number().read(2, ()), Number().distance(2.0, 4.0)
     (2.0, 0.5)
@@ -37,8 +37,6 @@ class Number:
     Traceback (most recent call last):
     rodlab.grading.values.Wrong: [1.0]; one number is expected
     """
-
-    says = "one number"
 
     def __init__(self, *, whole: bool = False) -> None:
         self.whole = whole
@@ -219,8 +217,8 @@ def _numbers(value: Any) -> Any:
     raise TypeError
 
 
-def _evaluated(value: Written | Other) -> float:
+def _evaluated(value: Written) -> float:
     try:
-        return float(Formula(value.text, ()).at({})) if isinstance(value, Written) else np.nan
+        return float(Formula(value.text, ()).at({}))
     except (Unreadable, TypeError):
         raise Wrong(f"{shown(value)}; a number is expected") from None

@@ -18,6 +18,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from classes import TEACHER, write_class
+from newton_and_index import paired
 
 from rodlab.lab.teaching.course import check, check_source, exercise
 from rodlab.lab.teaching.taught import taught
@@ -25,23 +26,18 @@ from rodlab.lab.teaching.taught import taught
 MOST = 300.0  # seconds for 200 submissions on 2 cores
 
 
-def median(run, repeats=7):
-    times = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        run()
-        times.append(time.perf_counter() - start)
-    return sorted(times)[repeats // 2]
-
-
 def one_answer():
     """One submission in a process, in this process, and a bare Python with numpy."""
     source = taught(next(path for path in TEACHER if path.stem == "two-joints")).reference
     names, asked = {}, exercise("two-joints")
     exec(source, names)
-    bare = median(lambda: subprocess.run([sys.executable, "-I", "-c", "import numpy"], check=True))
-    apart, here = median(lambda: check_source(asked, source, seed=1)), median(lambda: check("two-joints", names, seed=1))
-    print(f"one submission: {1e3 * apart:.0f} ms, {apart / bare:.2f} times a bare Python with numpy ({1e3 * bare:.0f} ms)")
+
+    def bare():
+        subprocess.run([sys.executable, "-I", "-c", "import numpy"], check=True)
+
+    ratio, apart = paired(lambda: check_source(asked, source, seed=1), bare, 7)
+    _, here = paired(lambda: check("two-joints", names, seed=1), bare, 7)
+    print(f"one submission: {1e3 * apart:.0f} ms, {ratio:.2f} times a bare Python with numpy")
     print(f"                judged in this process, as a notebook does: {1e3 * here:.1f} ms")
 
 

@@ -47,10 +47,11 @@ def _judged(chosen: argparse.Namespace, what: Path, course: Path | None) -> Answ
     seed = secrets.randbelow(2**31) if chosen.gradescope and chosen.seed is None else chosen.seed
     start = time.perf_counter()
     report = check_paths(exercise(name, course), paths, seed=seed)
+    said, written = of_report(report), []
     if chosen.gradescope:
-        write_whole(Path(chosen.gradescope), results(report, time.perf_counter() - start))
-    written = [chosen.gradescope] if chosen.gradescope else []
-    return {**of_report(report), "files": written}, f"{report}\n  ({report.protections})", 0 if report.passed else 1
+        write_whole(Path(chosen.gradescope), results(said, time.perf_counter() - start))
+        written = [chosen.gradescope]
+    return {**said, "files": written}, f"{report}\n  ({report.protections})", 0 if report.passed else 1
 
 
 def check_class(chosen: argparse.Namespace, watch: Watch) -> Answered:
@@ -82,10 +83,8 @@ def listed(chosen: argparse.Namespace) -> tuple[dict[str, Any], str]:
     text = "\n".join(f"{name:{width}}  [{source}]  {title}" for name, source, _, title in rows)
     said = [{"name": e.name, "title": e.title, "source": e.source, "points": e.points} for e in known]
     where = course or home()
-    return {
-        "exercises": said,
-        "folder": str(where),
-    }, f"{text}\n\nthey are in {where}; rodlab check FOLDER checks the answer in one"
+    text += f"\n\nthey are in {where}; rodlab check FOLDER checks the answer in one"
+    return {"exercises": said, "folder": str(where)}, text
 
 
 def made(chosen: argparse.Namespace) -> tuple[dict[str, Any], str]:

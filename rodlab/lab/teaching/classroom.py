@@ -21,11 +21,12 @@ from pathlib import Path
 from typing import Any
 
 from rodlab.files import swept, write_whole
+from rodlab.grading.grade import check_seed
 from rodlab.grading.sandbox import Limits
 from rodlab.lab.store import as_csv
 from rodlab.lab.studies.journal import Journal
 from rodlab.lab.studies.provenance import fingerprint
-from rodlab.lab.teaching.course import check_paths, exercise, home, names
+from rodlab.lab.teaching.course import check_sources, exercise, home, names
 from rodlab.lab.teaching.gradescope import of_report, results
 from rodlab.lab.teaching.submissions import LONGEST, Submission, read, submissions
 
@@ -107,8 +108,7 @@ def grade_class(
     """
     if only is not None:
         exercise(only, course)
-    if seed is not None and seed < 0:
-        raise ValueError(f"seed must be a whole number of at least 0; it is {seed}")
+    check_seed(seed)
     if jobs < 1:
         raise ValueError(f"jobs must be at least 1; it is {jobs}")
     papers = [Paper(found) for found in submissions(folder, names(course), only)]
@@ -152,12 +152,11 @@ def _record(submission: Submission, course: Path | None, seed: int, limits: Limi
     try:
         if len(submission.paths) > MOST:
             raise ValueError(f"for one exercise at most {MOST} files are read; here are {len(submission.paths)}")
-        for path in submission.paths:
-            read(path)
+        sources = [read(path) for path in submission.paths]
     except ValueError as why:
         return _row(submission, 0.0, asked.points, "not readable", str(why))
     try:
-        report = check_paths(asked, submission.paths, seed=seed, limits=limits)
+        report = check_sources(asked, sources, seed=seed, limits=limits)
     except Exception as why:  # noqa: BLE001 a fault of a check is this row's alone
         return _row(submission, 0.0, asked.points, "not judged", f"the check failed: {type(why).__name__}: {why}")
     said = of_report(report)

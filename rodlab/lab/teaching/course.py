@@ -98,7 +98,12 @@ def check_source(asked: Exercise, source: str, *, seed: int | None = None, limit
 
 def check_paths(asked: Exercise, paths: Sequence[Path], *, seed: int | None = None, limits: Limits | None = None) -> Report:
     """Judge the files of one submission; of a script and a notebook the better one counts."""
-    reports = [check_source(asked, read(path), seed=seed, limits=limits) for path in paths]
+    return check_sources(asked, [read(path) for path in paths], seed=seed, limits=limits)
+
+
+def check_sources(asked: Exercise, sources: Sequence[str], *, seed: int | None = None, limits: Limits | None = None) -> Report:
+    """Judge the texts of one submission; the best one counts, the first of equals."""
+    reports = [check_source(asked, source, seed=seed, limits=limits) for source in sources]
     return max(reports, key=lambda report: report.score)
 
 

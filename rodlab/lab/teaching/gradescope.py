@@ -8,9 +8,8 @@ from typing import Any
 from rodlab.grading.grade import Item, Report
 
 
-def results(report: Report | Mapping[str, Any], seconds: float | None = None) -> str:
-    """Gradescope's results.json: one test an item, those on fresh parameters hidden from the student."""
-    said = of_report(report) if isinstance(report, Report) else report
+def results(said: Mapping[str, Any], seconds: float | None = None) -> str:
+    """Gradescope's results.json of a report's data: one test an item, those on fresh parameters hidden from the student."""
     content: dict[str, Any] = {
         "score": round(said["score"], 6),
         "output": "\n".join(said["hints"]),

@@ -29,25 +29,25 @@ class Taught:
 
     name: str
     statement: str
-    answer: str
+    reference: str  # the answer with its solutions
     checks: str
     proofs: str
 
     @property
-    def stub(self) -> str:
-        """The answer without its solutions."""
-        return SOLUTION.sub(lambda found: "".join(f"{found[1]}{line}\n" for line in STUB.splitlines()), self.answer)
+    def title(self) -> str:
+        """The statement's first line."""
+        return self.statement.splitlines()[0].lstrip("# ")
 
     @property
-    def reference(self) -> str:
-        """The answer with its solutions."""
-        return self.answer
+    def stub(self) -> str:
+        """The answer without its solutions."""
+        return SOLUTION.sub(lambda found: "".join(f"{found[1]}{line}\n" for line in STUB.splitlines()), self.reference)
 
     def mistaken(self) -> dict[str, str]:
         """For each classic mistake, "question: name", the answer of one who makes it."""
         found: dict[str, Any] = {}
         exec(self.proofs, found)  # noqa: S102 the teacher's own
-        return {name: _edited(self.answer, edits, f"{self.name}, {name}") for name, edits in found["PROOFS"].items()}
+        return {name: _edited(self.reference, edits, f"{self.name}, {name}") for name, edits in found["PROOFS"].items()}
 
 
 def _edited(text: str, edits: Any, what: str) -> str:
@@ -85,7 +85,7 @@ def taught(path: Path) -> Taught:
 
 def _marked(path: Path, found: Taught) -> None:
     """Refuse marks without their other half, and whatever they would leave of a solution to the students."""
-    marks = re.findall(r"(BEGIN|END) SOLUTION", found.answer)
+    marks = re.findall(r"(BEGIN|END) SOLUTION", found.reference)
     if not marks:
         raise ValueError(f"{path} must mark its solutions by ### BEGIN SOLUTION and ### END SOLUTION; it has no such mark")
     if marks != ["BEGIN", "END"] * (len(marks) // 2) or "SOLUTION" in found.stub or "SOLUTION" in found.checks:
@@ -102,8 +102,7 @@ def folder_of(found: Taught) -> dict[str, str]:
         f"\n\n## Check it\n\nWrite your answer in `answer.py` (then `rodlab check exercises/{found.name}`) or in the notebook "
         f'`answer.ipynb` (its last cell is `rl.check("{found.name}", globals())`). A first hint: `rl.hint("{found.name}")`.\n'
     )
-    title = found.statement.splitlines()[0].lstrip("# ")
-    plain = title.replace("\\", "\\\\").replace('"', "'")  # in a docstring
+    plain = found.title.replace("\\", "\\\\").replace('"', "'")  # in a docstring
     return {
         "README.md": found.statement + foot,
         "answer.py": f"# rodlab exercise: {found.name}\n{found.stub}",
@@ -124,17 +123,10 @@ def notebook(found: Taught, answer: str, kind: str = "") -> str:
         case "otter":
             code = code.replace("### BEGIN SOLUTION", "# BEGIN SOLUTION").replace("### END SOLUTION", "# END SOLUTION")
             begin = f"# BEGIN QUESTION\nname: {found.name}\npoints: 1"
-            marks = iter(
-                (
-                    "# ASSIGNMENT CONFIG\nexport_cell: false",
-                    begin,
-                    "# BEGIN SOLUTION",
-                    "# END SOLUTION",
-                    "# BEGIN TESTS",
-                    "# END TESTS",
-                )
-            )
-            raw = [("raw", f"mark-{number}", text) for number, text in enumerate([*marks, "# END QUESTION"])]
+            marks = ("# BEGIN SOLUTION", "# END SOLUTION", "# BEGIN TESTS", "# END TESTS", "# END QUESTION")
+            raw = [
+                ("raw", f"mark-{i}", text) for i, text in enumerate(("# ASSIGNMENT CONFIG\nexport_cell: false", begin, *marks))
+            ]
             answer_cell, test_cell = ("code", "answer", code), ("code", "check", graded)
             cells = [raw[0], raw[1], statement, raw[2], answer_cell, raw[3], raw[4], test_cell, raw[5], raw[6]]
         case _:
@@ -183,8 +175,7 @@ def index(teacher: Path) -> str:
         functions = ", ".join(
             f"`{node.name}`" for node in ast.parse(found.stub).body if isinstance(node, ast.FunctionDef) and _open(node)
         )
-        title = found.statement.splitlines()[0].lstrip("# ")
-        rows.append((source[1] if source else "", f"[{found.name}]({found.name}/README.md)", title, functions))
+        rows.append((source[1] if source else "", f"[{found.name}]({found.name}/README.md)", found.title, functions))
     lines = [f"| {' | '.join(row)} |" for row in sorted(rows)]
     head = "| notes | exercise | about | write |\n|---|---|---|---|"
     foot = (
